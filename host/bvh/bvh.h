@@ -1,0 +1,41 @@
+// The bounding volume hierarchy: built on the host by the surface area heuristic, uploaded flat.
+#pragma once
+
+#include "shared/scene_types.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sahl {
+
+enum class BvhBuild {
+    automatic,  ///< sweep below 200,000 triangles, binned above
+    sweep,      ///< every split on all three axes
+    binned,     ///< 32 bins on each axis
+};
+
+struct BvhStatistics {
+    uint64_t innerNodes = 0;
+    uint64_t leaves = 0;
+    uint32_t depth = 0;       ///< inner nodes on the longest way from the root to a leaf
+    uint32_t largestLeaf = 0; ///< triangles
+    double sahCost = 0;       ///< expected box and triangle tests of a random ray that hits the root's box
+    double seconds = 0;       ///< to build
+    BvhBuild build = BvhBuild::sweep;
+};
+
+/// The tree, and the triangles in the order of its leaves.
+struct Bvh {
+    std::vector<BvhNode> nodes;
+    std::vector<Triangle> triangles;
+    uint rootRef = REF_NONE;
+    BvhStatistics statistics;
+};
+
+/// Builds the tree. The result depends on the triangles and `build` alone, not on `threads`.
+/// Depth is at most MAX_STACK_SIZE whatever the input (coincident triangles included).
+/// Throws badInput above MAX_TRIANGLES.
+Bvh buildBvh(std::span<const Triangle> triangles, BvhBuild build, unsigned threads);
+
+}  // namespace sahl

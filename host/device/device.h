@@ -1,0 +1,117 @@
+// The one interface behind which pictures are computed. Two makers: Vulkan and CPU.
+// Both run the text of shaders/pathtrace/ and give the same bits.
+#pragma once
+
+#include "shared/film_types.h"
+#include "shared/scene_types.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sahl {
+
+/// What a device reads: spans over the scene's arrays and its tree. Must outlive the upload only.
+struct DeviceScene {
+    std::span<const BvhNode> nodes;
+    std::span<const Triangle> triangles;  ///< in leaf order
+    std::span<const TriangleNormals> triangleNormals;
+    std::span<const Material> materials;
+    std::span<const Light> lights;
+    std::span<const vec4> probeTexels;
+    Frame frame = {};
+    uint32_t treeDepth = 0;  ///< decides the size of the traversal stack
+};
+
+/// Part of a picture and of its samples. x, y, width and height in pixels of the full picture.
+struct TileRequest {
+    uint32_t x = 0, y = 0, width = 0, height = 0;
+    uint32_t firstSample = 0;  ///< multiple of BLOCK_SIZE
+    uint32_t sampleCount = 0;  ///< 1 to BLOCK_SIZE
+};
+
+/// Who computes, for messages, files and reports.
+struct DeviceInfo {
+    std::string name;    ///< "llvmpipe (LLVM 15.0.6, 256 bits)", "CPU, 2 threads"
+    std::string driver;  ///< "llvmpipe Mesa 22.3.6 ...", "gcc 12.2.0 ..."
+    std::string kind;    ///< "discrete", "integrated", "virtual", "software", "cpu"
+};
+
+/// How the work of a device went; the same picture comes out whatever these numbers are.
+struct DeviceStatistics {
+    uint64_t dispatches = 0;
+    uint64_t retries = 0;       ///< dispatches in which a loop was cut and whose pixels went again
+    uint64_t resumptions = 0;   ///< extra dispatches for paths that ran out of steps
+    uint32_t stepBudget = 0;    ///< in force at the end
+    double uploadSeconds = 0;
+    double renderSeconds = 0;   ///< inside render()
+    uint64_t sceneBytes = 0;    ///< on the device
+    bool texelBuffers = false;  ///< scene read through texel buffers rather than storage buffers
+};
+
+class Device {
+public:
+    virtual ~Device() = default;
+
+    virtual DeviceInfo info() const = 0;
+
+    /// Uploads a scene; replaces the one before. Throws badInput or noDevice with numbers when the
+    /// device's limits do not allow it, deviceLost when it runs out of memory.
+    virtual void setScene(const DeviceScene& scene) = 0;
+
+    /// Renders the samples of a tile. blocks.size() == width * height, top row first; all fields of
+    /// every block are overwritten; `faults` is 0 and `status` BLOCK_IDLE on return.
+    /// Throws deviceLost.
+    virtual void render(const TileRequest& tile, std::span<PixelBlock> blocks) = 0;
+
+    /// Largest width * height that render() takes.
+    virtual uint32_t maxTilePixels() const = 0;
+
+    virtual DeviceStatistics statistics() const = 0;
+};
+
+/// Settings for users and tests. None of them changes a bit of the film.
+struct DeviceOptions {
+    unsigned threads = 0;              ///< CPU: 0 means all cores
+    uint32_t traversalOrder = 0;       ///< one of ORDER_* (changes counters)
+    // Vulkan only:
+    enum class Buffers { automatic, texel, storage } buffers = Buffers::automatic;
+    uint32_t groupWidth = 8, groupHeight = 8;
+    uint32_t stepBudget = 0;           ///< 0: by the driver; steps one invocation takes a dispatch
+    bool validation = false;           ///< Khronos validation with synchronization checks, if installed
+};
+
+/// The same text compiled as C++, on all cores.
+std::unique_ptr<Device> makeCpuDevice(const DeviceOptions& options);
+
+/// A Vulkan device found on this machine.
+struct VulkanDeviceInfo {
+    uint32_t index = 0;
+    std::string name, driver, kind, uuid, apiVersion;
+    uint64_t deviceMemory = 0;            ///< bytes of the largest device-local heap
+    uint64_t maxStorageBufferBytes = 0;   ///< of one binding
+    uint64_t maxTexelBufferElements = 0;
+    uint32_t subgroupSize = 0;
+    uint32_t maxGroupInvocations = 0;
+    std::string unusable;                 ///< empty, or why it cannot be used
+};
+
+/// All Vulkan devices. Empty when there is no loader or no driver; `whyNone` then says why.
+std::vector<VulkanDeviceInfo> listVulkanDevices(std::string& whyNone);
+
+/// Opens one of listVulkanDevices(). Throws noDevice.
+std::unique_ptr<Device> makeVulkanDevice(uint32_t index, const DeviceOptions& options);
+
+/// Opens what --device names: "auto", "cpu", an index, a UUID, a part of a name, "discrete",
+/// "integrated" or "software". `note` is a line for the user about what was chosen and why, or empty.
+/// auto: a real GPU, else software Vulkan; CPU only where there is no Vulkan at all, with a note.
+/// Throws noDevice with the list of devices when nothing fits.
+std::unique_ptr<Device> openDevice(const std::string& selection, const DeviceOptions& options,
+                                   std::string& note);
+
+/// Number of messages the validation layer has given so far in this process (0 without it).
+uint64_t validationMessageCount();
+
+}  // namespace sahl

@@ -1,0 +1,76 @@
+// The film: exact per-pixel sums of what a device rendered, and pictures made from them.
+#pragma once
+
+#include "image/image.h"
+#include "shared/film_types.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sahl {
+
+/// Unsigned fixed point, 64 bits before and 64 after the binary point. Addition is exact and
+/// saturates at the top, hence does not depend on the order of the terms.
+struct Fixed64x64 {
+    uint64_t whole = 0;
+    uint64_t fraction = 0;
+
+    static Fixed64x64 fromFloat(float value);  ///< value >= 0 and finite; bits below 2^-64 are cut
+    void add(Fixed64x64 other);
+    double toDouble() const;
+    bool operator==(const Fixed64x64&) const = default;
+};
+
+/// One half (A or B) of a pixel.
+struct HalfPixel {
+    Fixed64x64 sum[3];  ///< radiance of all samples, RGB
+    Fixed64x64 sumY2;   ///< squared luminance of the replicates (single samples)
+    uint32_t samples = 0;
+    bool operator==(const HalfPixel&) const = default;
+};
+
+/// Work that the device counted for a pixel or a picture. Exact, equal on every device.
+struct Counters {
+    uint64_t cameraRays = 0;
+    uint64_t indirectRays = 0;
+    uint64_t shadowRays = 0;
+    uint64_t boxTests = 0;
+    uint64_t primitiveTests = 0;
+    uint64_t bounces = 0;
+    uint64_t badSamples = 0;
+    bool operator==(const Counters&) const = default;
+    void add(const Counters& other);
+};
+
+struct Film {
+    Film(uint32_t filmWidth, uint32_t filmHeight);
+
+    uint32_t width, height;
+    std::vector<HalfPixel> half[2];  ///< A: even blocks, B: odd blocks; width * height each
+    std::vector<uint32_t> digest;    ///< path digest of each pixel
+    Counters counters;
+
+    /// Adds the blocks of a tile whose samples start at `firstSample`, a multiple of BLOCK_SIZE.
+    void add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight, uint32_t firstSample,
+             std::span<const PixelBlock> blocks);
+
+    /// Adds a film of other samples of the same picture. The result does not depend on the order.
+    void merge(const Film& other);
+
+    bool operator==(const Film&) const = default;
+};
+
+/// Mean radiance of each pixel over both halves, black where there is no sample.
+Image meanImage(const Film& film);
+
+enum class ToneMap {
+    percentile,  ///< the 5th percentile of all RGB values becomes 0, the 95th 1; linear between
+    naive,       ///< the smallest value becomes 0, the largest 1
+    srgb,        ///< times 2^exposure, clipped to [0,1], sRGB encoded
+};
+
+/// 8-bit picture. `exposure` in stops is used by srgb only. Non-finite values count as 0.
+Image8 toneMap(const Image& image, ToneMap how, float exposure);
+
+}  // namespace sahl

@@ -1,0 +1,39 @@
+// Pictures in memory and their files: EXR, PNG, PFM and Radiance HDR.
+#pragma once
+
+#include "util/files.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sahl {
+
+/// Linear RGB picture, Rec. 709, top row first: pixel (x, y) is at 3 * (y * width + x).
+struct Image {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<float> rgb;
+};
+
+/// Picture of 8-bit sRGB values, top row first, 3 bytes a pixel.
+struct Image8 {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<uint8_t> rgb;
+};
+
+/// Text that goes along with a picture: EXR attributes, PNG text chunks.
+using ImageMetadata = std::map<std::string, std::string>;
+
+/// Reads EXR, PFM or HDR, told apart by their first bytes. At most 2^28 pixels and 32768 a side.
+/// Throws badInput naming the file and what is wrong with it: truncated, wrong magic, zero size.
+/// Non-finite values are kept: what they mean is the caller's matter.
+Image readImage(const fs::path& path);
+
+/// Encoders: the complete file in memory, to be written by writeFileAtomically.
+std::vector<uint8_t> encodeExr(const Image& image, const ImageMetadata& metadata);  ///< float32, ZIP
+std::vector<uint8_t> encodePng(const Image8& image, const ImageMetadata& metadata);
+std::vector<uint8_t> encodePfm(const Image& image);
+
+}  // namespace sahl

@@ -1,0 +1,69 @@
+// A scene as the rest of the program sees it: plain arrays of the structs that the device reads.
+#pragma once
+
+#include "shared/scene_types.h"
+#include "util/files.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sahl {
+
+/// Numbers of the picture that a scene file may set and the command line may override.
+struct RenderSettings {
+    uint32_t width = 512;    ///< [pixels]
+    uint32_t height = 512;
+    uint32_t spp = 64;       ///< samples per pixel
+    uint32_t maxBounces = 8;
+    uint32_t seed = 0;
+};
+
+/// Everything a picture is made of, before the tree is built. Triangles are in the order in which
+/// the files gave them; triangles[i].primitive == i.
+struct Scene {
+    std::string name;  ///< for messages: the file, or "built-in ..."
+    RenderSettings settings;
+    std::vector<Triangle> triangles;
+    std::vector<TriangleNormals> triangleNormals;
+    std::vector<Material> materials;
+    std::vector<std::string> materialNames;  ///< of materials, for messages
+    std::vector<Light> lights;
+    Probe probe = {0, 0, PROBE_LATLONG, FILTER_BILINEAR};
+    std::vector<vec4> probeTexels;
+    Camera camera = {};  ///< `right` set for settings.width x settings.height, see frameCamera
+    uint64_t droppedTriangles = 0;  ///< of zero area, left out while reading
+};
+
+/// Camera as people describe it. Field of view in degrees of the named axis.
+struct CameraDescription {
+    glm::dvec3 eye = {0, 0, 5};
+    glm::dvec3 lookAt = {0, 0, 0};
+    glm::dvec3 up = {0, 1, 0};
+    double fovDeg = 40;
+    bool fovHorizontal = false;
+};
+
+/// The device's camera for a picture of the given size. Throws badInput when eye and lookAt
+/// coincide, up is parallel to the view, or fovDeg is outside (0, 180).
+Camera makeCamera(const CameraDescription& description, uint32_t width, uint32_t height);
+
+/// What the command line adds to or changes in a scene.
+struct SceneOptions {
+    std::optional<uint32_t> width, height, spp, maxBounces, seed;
+    std::optional<fs::path> probe;               ///< replaces the environment
+    std::optional<std::string> probeMapping;     ///< "latlong" or "angular"
+    std::optional<std::string> probeFilter;      ///< "nearest" or "bilinear"
+    bool smoothNormals = false;                  ///< make normals for meshes that have none
+    std::vector<fs::path> allowedPaths;          ///< folders outside the scene's own to read from
+};
+
+/// Reads a scene: .json (scenes/schema.json) or .obj (framing camera, default studio probe when no
+/// probe is named). Throws badInput with file, line and column or object, and what would help.
+Scene loadScene(const fs::path& path, const SceneOptions& options);
+
+/// A small scene that needs no file: 2 spheres of triangles with smooth normals, a lamp, a point
+/// light, a ground and a probe. For `sahl verify` without a scene, and for tests.
+Scene builtInScene(const SceneOptions& options);
+
+}  // namespace sahl

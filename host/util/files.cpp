@@ -1,0 +1,164 @@
+#include "util/files.h"
+
+#include "util/error.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+
+namespace sahl {
+
+namespace {
+
+Error cannotWrite(const fs::path& path, const std::string& why)
+{
+    return Error(ErrorKind::cannotWrite, fmt::format("{}: cannot write: {}", path.string(), why));
+}
+
+/// An open file descriptor that closes itself.
+struct Descriptor {
+    explicit Descriptor(int value) : fd(value) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor()
+    {
+        if (fd >= 0) ::close(fd);
+    }
+    int fd;
+};
+
+/// Opens for reading and checks that it is a regular file of a bearable size.
+Descriptor openInput(const fs::path& path, uint64_t maxBytes, uint64_t& size)
+{
+    // O_NONBLOCK: opening a pipe must not wait for its writer.
+    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (file.fd < 0) throw badInput("{}: cannot read: {}", path.string(), std::strerror(errno));
+    struct stat info = {};
+    if (::fstat(file.fd, &info) != 0) throw badInput("{}: {}", path.string(), std::strerror(errno));
+    if (S_ISDIR(info.st_mode)) throw badInput("{}: is a directory, not a file", path.string());
+    if (!S_ISREG(info.st_mode)) {
+        throw badInput("{}: is not a regular file (a device or pipe cannot be read)", path.string());
+    }
+    size = static_cast<uint64_t>(info.st_size);
+    if (size > maxBytes) {
+        throw badInput("{}: has {} bytes; at most {} are read", path.string(), size, maxBytes);
+    }
+    return Descriptor(std::exchange(file.fd, -1));
+}
+
+fs::path temporaryBeside(const fs::path& target)
+{
+    static std::atomic<unsigned> serial{0};
+    fs::path name = target;
+    name += fmt::format(".{}.{}.tmp", ::getpid(), serial++);
+    return name;
+}
+
+int createTemporary(const fs::path& path)
+{
+    return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+}
+
+void writeAll(int fd, std::span<const uint8_t> bytes, const fs::path& target)
+{
+    while (!bytes.empty()) {
+        ssize_t written = ::write(fd, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) throw cannotWrite(target, std::strerror(written < 0 ? errno : ENOSPC));
+        bytes = bytes.subspan(static_cast<size_t>(written));
+    }
+}
+
+fs::path folderOf(const fs::path& target)
+{
+    return target.has_parent_path() ? target.parent_path() : fs::path(".");
+}
+
+/// Devices and pipes are written in place: there is nothing to rename over.
+bool isSpecialFile(const fs::path& target)
+{
+    struct stat info = {};
+    return ::stat(target.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
+}
+
+}  // namespace
+
+void requireRegularFile(const fs::path& path, uint64_t maxBytes)
+{
+    uint64_t size = 0;
+    openInput(path, maxBytes, size);
+}
+
+std::vector<uint8_t> readFile(const fs::path& path, uint64_t maxBytes)
+{
+    uint64_t size = 0;
+    Descriptor file = openInput(path, maxBytes, size);
+    std::vector<uint8_t> bytes(size);
+    size_t have = 0;
+    while (have < bytes.size()) {
+        ssize_t got = ::read(file.fd, bytes.data() + have, bytes.size() - have);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) throw badInput("{}: cannot read: {}", path.string(), std::strerror(errno));
+        if (got == 0) break;  // the file shrank meanwhile; what follows will find it truncated
+        have += static_cast<size_t>(got);
+    }
+    bytes.resize(have);
+    return bytes;
+}
+
+std::string readTextFile(const fs::path& path, uint64_t maxBytes)
+{
+    std::vector<uint8_t> bytes = readFile(path, maxBytes);
+    return std::string(bytes.begin(), bytes.end());
+}
+
+void requireWritable(const fs::path& target)
+{
+    if (fs::is_directory(target)) throw cannotWrite(target, "it is a directory");
+    if (fs::exists(target) && ::access(target.c_str(), W_OK) != 0) {
+        throw cannotWrite(target, std::strerror(errno));
+    }
+    if (isSpecialFile(target)) return;
+    fs::path temporary = temporaryBeside(target);
+    Descriptor file(createTemporary(temporary));
+    if (file.fd < 0) {
+        throw cannotWrite(target, fmt::format("{} (folder {})", std::strerror(errno), folderOf(target).string()));
+    }
+    ::unlink(temporary.c_str());
+}
+
+void writeFileAtomically(const fs::path& target, std::span<const uint8_t> bytes)
+{
+    if (isSpecialFile(target)) {
+        Descriptor device(::open(target.c_str(), O_WRONLY | O_CLOEXEC));
+        if (device.fd < 0) throw cannotWrite(target, std::strerror(errno));
+        writeAll(device.fd, bytes, target);
+        return;
+    }
+    fs::path temporary = temporaryBeside(target);
+    Descriptor file(createTemporary(temporary));
+    if (file.fd < 0) throw cannotWrite(target, std::strerror(errno));
+    try {
+        writeAll(file.fd, bytes, target);
+        if (::fsync(file.fd) != 0) throw cannotWrite(target, std::strerror(errno));
+        if (::close(std::exchange(file.fd, -1)) != 0) throw cannotWrite(target, std::strerror(errno));
+        if (::rename(temporary.c_str(), target.c_str()) != 0) throw cannotWrite(target, std::strerror(errno));
+    } catch (...) {
+        ::unlink(temporary.c_str());
+        throw;
+    }
+    // The rename itself must survive a power cut; a folder that cannot be synced is no failure.
+    Descriptor folder(::open(folderOf(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (folder.fd >= 0) ::fsync(folder.fd);
+}
+
+void writeFileAtomically(const fs::path& target, const std::string& text)
+{
+    writeFileAtomically(target, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+}  // namespace sahl

@@ -1,0 +1,33 @@
+// Files: reading whole inputs with limits, and writing outputs so that they are complete or absent.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sahl {
+
+namespace fs = std::filesystem;
+
+/// The whole content of a regular file. Throws badInput naming the file when it is missing, a
+/// directory, a device or pipe (checked before reading: /dev/zero would never end), unreadable,
+/// or larger than `maxBytes`.
+std::vector<uint8_t> readFile(const fs::path& path, uint64_t maxBytes = uint64_t{8} << 30);
+std::string readTextFile(const fs::path& path, uint64_t maxBytes = uint64_t{256} << 20);
+
+/// Same checks as readFile without reading: for libraries that open the file themselves.
+void requireRegularFile(const fs::path& path, uint64_t maxBytes = uint64_t{8} << 30);
+
+/// Throws cannotWrite unless a file can be created beside `target` now and `target` itself is
+/// absent or a writable regular file. Called before rendering, so that a bad path costs nothing.
+void requireWritable(const fs::path& target);
+
+/// Replaces `target` by `bytes` so that at any moment the old or the complete new file is there:
+/// a temporary file beside it, checked writes, fsync, rename. Throws cannotWrite; the temporary
+/// file is removed on failure.
+void writeFileAtomically(const fs::path& target, std::span<const uint8_t> bytes);
+void writeFileAtomically(const fs::path& target, const std::string& text);
+
+}  // namespace sahl

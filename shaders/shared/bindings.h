@@ -1,0 +1,36 @@
+// Descriptor set 0 of every path tracing kernel, specialisation constants and workgroup shape.
+#ifndef SAHL_BINDINGS_H
+#define SAHL_BINDINGS_H
+
+#include "shared/interop.h"
+
+SHARED_BEGIN
+
+// Read-only scene data: texel buffers (RGBA32UI) or storage buffers, see kernels/accessors.glsl.
+SHARED_CONST uint BINDING_NODES = 0u;
+SHARED_CONST uint BINDING_TRIANGLES = 1u;
+SHARED_CONST uint BINDING_NORMALS = 2u;
+SHARED_CONST uint BINDING_MATERIALS = 3u;
+SHARED_CONST uint BINDING_LIGHTS = 4u;
+SHARED_CONST uint BINDING_PROBE = 5u;
+SHARED_CONST uint SCENE_BUFFER_COUNT = 6u;
+
+SHARED_CONST uint BINDING_FRAME = 6u;      // uniform buffer, Frame
+SHARED_CONST uint BINDING_PIXELS = 7u;     // storage buffer, PixelBlock[] of the tile
+SHARED_CONST uint BINDING_SUSPENDED = 8u;  // storage buffer, SuspendedPath[] of the tile
+SHARED_CONST uint BINDING_COUNT = 9u;
+
+// Specialisation constants.
+SHARED_CONST uint SPEC_GROUP_WIDTH = 0u;   // workgroup shape [invocations]
+SHARED_CONST uint SPEC_GROUP_HEIGHT = 1u;
+SHARED_CONST uint SPEC_STACK_SIZE = 2u;    // entries, at least the depth of the tree
+SHARED_CONST uint SPEC_ORDER = 3u;         // one of ORDER_*
+
+// Order in which the children of a node are visited. It changes the counters, never a hit.
+SHARED_CONST uint ORDER_NEAR_FIRST = 0u;
+SHARED_CONST uint ORDER_LEFT_FIRST = 1u;
+SHARED_CONST uint ORDER_RIGHT_FIRST = 2u;
+
+SHARED_END
+
+#endif
