@@ -1,6 +1,8 @@
 # Every target of ours is made here, so that all share one set of warnings and the flags that
 # keep float arithmetic the same on every compiler.
 
+get_filename_component(SAHL_ROOT ${CMAKE_CURRENT_LIST_DIR}/../.. ABSOLUTE)
+
 # No contraction into fused multiply-add and no fast-math, anywhere: the host prepares numbers
 # (boxes, cameras, tables) that the device's result depends on.
 function(sahl_compile_options target)
@@ -14,7 +16,7 @@ endfunction()
 function(sahl_library name)
     cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
     add_library(${name} STATIC ${ARG_SOURCES})
-    target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR}/host ${CMAKE_SOURCE_DIR}/shaders)
+    target_include_directories(${name} PUBLIC ${SAHL_ROOT}/host ${SAHL_ROOT}/shaders)
     target_link_libraries(${name} PUBLIC ${ARG_LINKS})
     sahl_compile_options(${name})
 endfunction()
@@ -23,7 +25,7 @@ endfunction()
 function(sahl_test name)
     cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
     add_executable(${name} ${ARG_SOURCES})
-    target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+    target_include_directories(${name} PRIVATE ${SAHL_ROOT}/tests)
     target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest GTest::gtest_main)
     sahl_compile_options(${name})
     gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)

@@ -1,0 +1,82 @@
+// What a kernel provides to the path tracer's text: buffers behind accessors, and the frame.
+// SAHL_TEXEL_BUFFERS chooses uniform texel buffers; otherwise the scene is read from storage buffers.
+
+#define CONST const
+#define OUT(T) out T
+#define INOUT(T) inout T
+
+#include "shared/bindings.h"
+#include "shared/film_types.h"
+#include "shared/scene_types.h"
+
+layout(constant_id = SPEC_STACK_SIZE) const uint STACK_SIZE = 64u;
+layout(constant_id = SPEC_ORDER) const uint TRAVERSAL_ORDER = ORDER_NEAR_FIRST;
+
+layout(std140, set = 0, binding = BINDING_FRAME) uniform FrameBlock
+{
+    Frame frame;
+};
+
+#ifdef SAHL_TEXEL_BUFFERS
+#define SCENE_BUFFER(bindingIndex, name) layout(set = 0, binding = bindingIndex) uniform utextureBuffer name
+#define FETCH(name, index) texelFetch(name, int(index))
+#else
+#define SCENE_BUFFER(bindingIndex, name) \
+    layout(std430, set = 0, binding = bindingIndex) readonly buffer name##Block { uvec4 name[]; }
+#define FETCH(name, index) name[index]
+#endif
+
+// 16 bytes an element, whatever the struct.
+SCENE_BUFFER(BINDING_NODES, nodeWords);
+SCENE_BUFFER(BINDING_TRIANGLES, triangleWords);
+SCENE_BUFFER(BINDING_NORMALS, normalWords);
+SCENE_BUFFER(BINDING_MATERIALS, materialWords);
+SCENE_BUFFER(BINDING_LIGHTS, lightWords);
+SCENE_BUFFER(BINDING_PROBE, probeWords);
+
+BvhNode loadNode(uint index)
+{
+    uvec4 a = FETCH(nodeWords, index * 4u);
+    uvec4 b = FETCH(nodeWords, index * 4u + 1u);
+    uvec4 c = FETCH(nodeWords, index * 4u + 2u);
+    uvec4 d = FETCH(nodeWords, index * 4u + 3u);
+    return BvhNode(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w,
+                   uintBitsToFloat(c.xyz), c.w, uintBitsToFloat(d.xyz), d.w);
+}
+
+Triangle loadTriangle(uint index)
+{
+    uvec4 a = FETCH(triangleWords, index * 3u);
+    uvec4 b = FETCH(triangleWords, index * 3u + 1u);
+    uvec4 c = FETCH(triangleWords, index * 3u + 2u);
+    return Triangle(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w,
+                    uintBitsToFloat(c.xyz), c.w);
+}
+
+TriangleNormals loadNormals(uint index)
+{
+    uvec4 a = FETCH(normalWords, index * 3u);
+    uvec4 b = FETCH(normalWords, index * 3u + 1u);
+    uvec4 c = FETCH(normalWords, index * 3u + 2u);
+    return TriangleNormals(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w,
+                           uintBitsToFloat(c.xyz), c.w);
+}
+
+Material loadMaterial(uint index)
+{
+    uvec4 a = FETCH(materialWords, index * 2u);
+    uvec4 b = FETCH(materialWords, index * 2u + 1u);
+    return Material(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), b.w);
+}
+
+Light loadLight(uint index)
+{
+    uvec4 a = FETCH(lightWords, index * 2u);
+    uvec4 b = FETCH(lightWords, index * 2u + 1u);
+    return Light(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), uintBitsToFloat(b.w));
+}
+
+vec3 loadProbeTexel(uint index)
+{
+    return uintBitsToFloat(FETCH(probeWords, index).xyz);
+}

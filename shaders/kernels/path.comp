@@ -1,0 +1,91 @@
+// The megakernel: every invocation owns one pixel of the tile and takes it up to one sample further.
+//
+// A path that runs out of steps is saved and goes on in the next dispatch. An invocation in which a
+// fault was seen (a loop cut short by the driver) changes nothing but the pixel's `faults`, so that
+// the host can simply dispatch again with fewer steps.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "kernels/device.glsl"
+
+layout(local_size_x_id = SPEC_GROUP_WIDTH, local_size_y_id = SPEC_GROUP_HEIGHT) in;
+
+layout(std430, set = 0, binding = BINDING_PIXELS) buffer PixelsBlock
+{
+    PixelBlock pixels[];
+};
+layout(std430, set = 0, binding = BINDING_SUSPENDED) buffer SuspendedBlock
+{
+    SuspendedPath suspended[];
+};
+layout(push_constant) uniform DispatchBlock
+{
+    Dispatch job;
+};
+
+#include "pathtrace/pathtrace.glsl"
+
+void suspendPath(uint index, PathState path, Traversal walk)
+{
+    suspended[index].path = path;
+    suspended[index].traversal = walk;
+    suspended[index].indirectRays = tally.indirectRays;
+    suspended[index].shadowRays = tally.shadowRays;
+    suspended[index].boxTests = tally.boxTests;
+    suspended[index].primitiveTests = tally.primitiveTests;
+    suspended[index].bounces = tally.bounces;
+    uint i = 0u;
+    for (; i < walk.stackSize; i++) suspended[index].stack[i] = stack[i];
+    if (i != walk.stackSize) faults |= FAULT_LOOP_CUT;
+}
+
+void resumePath(uint index, out PathState path, out Traversal walk)
+{
+    path = suspended[index].path;
+    walk = suspended[index].traversal;
+    tally.indirectRays = suspended[index].indirectRays;
+    tally.shadowRays = suspended[index].shadowRays;
+    tally.boxTests = suspended[index].boxTests;
+    tally.primitiveTests = suspended[index].primitiveTests;
+    tally.bounces = suspended[index].bounces;
+    uint i = 0u;
+    for (; i < walk.stackSize; i++) stack[i] = suspended[index].stack[i];
+    if (i != walk.stackSize) faults |= FAULT_LOOP_CUT;
+}
+
+void main()
+{
+    uvec2 at = gl_GlobalInvocationID.xy;
+    if (at.x >= job.tileWidth || at.y >= job.tileHeight) return;
+    uint index = at.y * job.tileWidth + at.x;
+    PixelBlock block = pixels[index];
+    if (block.samplesDone >= job.sampleCount) return;
+
+    stepsLeft = job.stepBudget;
+    faults = 0u;
+    tally = Tally(0u, 0u, 0u, 0u, 0u);
+    PathState path;
+    Traversal walk;
+    if (block.status == BLOCK_SUSPENDED) {
+        resumePath(index, path, walk);
+    } else {
+        path = beginPath(job.tileX + at.x, job.tileY + at.y, job.firstSample + block.samplesDone);
+        walk = beginPathTraversal(path);
+    }
+    advancePath(path, walk);
+
+    bool ended = path.phase == PHASE_ENDED;
+    if (!ended && faults == 0u) {
+        suspendPath(index, path, walk);
+        // Half saved is as good as lost: the sample begins again.
+        if (faults != 0u) pixels[index].status = BLOCK_IDLE;
+    }
+    if (faults != 0u) {
+        pixels[index].faults = faults;
+        return;
+    }
+    block.faults = 0u;
+    if (ended) addSample(path, block);
+    block.status = ended ? BLOCK_IDLE : BLOCK_SUSPENDED;
+    pixels[index] = block;
+}

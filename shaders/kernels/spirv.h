@@ -1,0 +1,13 @@
+// The compiled kernels, part of the binary. C++ only.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace sahl {
+
+/// SPIR-V of a kernel: "path_texel" or "path_storage" (see kernels/device.glsl).
+std::span<const uint32_t> kernelSpirv(std::string_view name);
+
+}  // namespace sahl

@@ -1,0 +1,26 @@
+// What a finished sample adds to its pixel's block.
+
+bool isRadiance(float x) { return isFiniteNumber(x) && !(x < 0.0f); }
+
+/// Adds the path's radiance to the block, in sample order. A sample that is negative or not finite
+/// counts as black and is counted.
+void addSample(PathState path, INOUT(PixelBlock) block)
+{
+    vec3 L = flushed3(path.L);
+    float y = luminance(L);
+    float y2 = flushed(y * y);
+    if (!(isRadiance(L.x) && isRadiance(L.y) && isRadiance(L.z) && isFiniteNumber(y2))) {
+        L = vec3(0.0f);
+        y2 = 0.0f;
+        block.badSamples++;
+    }
+    block.sum = block.sum + L;
+    block.sumY2 = block.sumY2 + y2;
+    block.digest += path.digest;
+    block.samplesDone++;
+    block.indirectRays += tally.indirectRays;
+    block.shadowRays += tally.shadowRays;
+    block.boxTests += tally.boxTests;
+    block.primitiveTests += tally.primitiveTests;
+    block.bounces += tally.bounces;
+}

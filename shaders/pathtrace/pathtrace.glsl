@@ -1,0 +1,32 @@
+// The path tracer, in the order in which a path meets its parts. The includer provides the buffers
+// (loadNode, loadTriangle, ...), `frame`, STACK_SIZE, TRAVERSAL_ORDER and the macros OUT and INOUT.
+
+// Invocation-wide state.
+struct Tally
+{
+    uint indirectRays;
+    uint shadowRays;
+    uint boxTests;
+    uint primitiveTests;
+    uint bounces;
+};
+
+Tally tally;             // work counted for the current sample
+uint stepsLeft;          // steps of traversal before the invocation must stop
+uint faults;             // FAULT_* seen so far
+uint stack[STACK_SIZE];  // references still to visit
+
+CONST float RAY_INFINITY = 3.0e38f;
+
+#include "pathtrace/math.glsl"
+#include "pathtrace/rng.glsl"
+#include "pathtrace/sampling.glsl"
+#include "pathtrace/camera.glsl"
+#include "pathtrace/triangle.glsl"
+#include "pathtrace/traverse.glsl"
+#include "pathtrace/interaction.glsl"
+#include "pathtrace/bsdf.glsl"
+#include "pathtrace/probe.glsl"
+#include "pathtrace/light.glsl"
+#include "pathtrace/path.glsl"
+#include "pathtrace/film.glsl"

@@ -1,0 +1,57 @@
+// The light probe: radiance that arrives from infinitely far away, looked up by direction.
+// Mappings are Debevec's; d is a unit direction with +Y up.
+
+/// Lat-long: u runs from left to right, v from the top; the picture's centre is -Z.
+vec2 latLongFromDirection(vec3 d)
+{
+    float u = 0.5f + atan2Turns(d.x, -d.z);
+    float v = 2.0f * atan2Turns(root(d.x * d.x + d.z * d.z), d.y);
+    return vec2(u, v);
+}
+
+/// Angular map: the picture's centre is -Z, its rim +Z.
+vec2 angularMapFromDirection(vec3 d)
+{
+    float sine = root(d.x * d.x + d.y * d.y);
+    // The angle with -Z as a fraction of half a turn, over its sine; at the centre the limit of that
+    // over 2 is taken, at the rim any direction will do.
+    float r = sine > 0.0f ? quotient(atan2Turns(sine, -d.z), sine) : 0.0f;
+    float right = sine > 0.0f ? d.x * r : (d.z > 0.0f ? 0.5f : 0.0f);
+    return vec2(0.5f + right, 0.5f - d.y * r);
+}
+
+/// Texel (x, y); beside the picture the nearest one, except that lat-long goes round in x.
+vec3 probeTexelAt(int x, int y)
+{
+    int width = int(frame.probe.width);
+    int height = int(frame.probe.height);
+    if (frame.probe.mapping == PROBE_LATLONG) {
+        x = x < 0 ? x + width : (x >= width ? x - width : x);
+    } else {
+        x = x < 0 ? 0 : (x >= width ? width - 1 : x);
+    }
+    y = y < 0 ? 0 : (y >= height ? height - 1 : y);
+    return loadProbeTexel(uint(y) * frame.probe.width + uint(x));
+}
+
+/// Radiance from direction d [W m^-2 sr^-1].
+vec3 evalProbe(vec3 d)
+{
+    if (frame.probe.height == 0u) return vec3(0.0f);
+    vec2 uv = frame.probe.mapping == PROBE_ANGULAR ? angularMapFromDirection(d)
+                                                   : latLongFromDirection(d);
+    float x = uv.x * float(frame.probe.width);
+    float y = uv.y * float(frame.probe.height);
+    if (frame.probe.filterMode == FILTER_NEAREST) {
+        return probeTexelAt(int(floor(x)), int(floor(y)));
+    }
+    float left = floor(x - 0.5f);
+    float top = floor(y - 0.5f);
+    float fx = (x - 0.5f) - left;
+    float fy = (y - 0.5f) - top;
+    int ix = int(left);
+    int iy = int(top);
+    vec3 upper = probeTexelAt(ix, iy) * (1.0f - fx) + probeTexelAt(ix + 1, iy) * fx;
+    vec3 lower = probeTexelAt(ix, iy + 1) * (1.0f - fx) + probeTexelAt(ix + 1, iy + 1) * fx;
+    return upper * (1.0f - fy) + lower * fy;
+}

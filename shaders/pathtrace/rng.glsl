@@ -1,0 +1,38 @@
+// Random numbers as a function of (seed, pixel, sample, dimension): no state, integers only.
+
+// Where a path needs numbers. Each vertex has its own row of DIMENSIONS_PER_VERTEX.
+CONST uint DIMENSION_CAMERA = 0u;
+CONST uint DIMENSION_FIRST_VERTEX = 4u;
+CONST uint DIMENSIONS_PER_VERTEX = 4u;
+
+/// pcg4d of Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", JCGT 9(3), Sec. 4.2.
+uvec4 hash4(uint a, uint b, uint c, uint d)
+{
+    uint x = a * 1664525u + 1013904223u;
+    uint y = b * 1664525u + 1013904223u;
+    uint z = c * 1664525u + 1013904223u;
+    uint w = d * 1664525u + 1013904223u;
+    x += y * w;
+    y += z * x;
+    z += x * y;
+    w += y * z;
+    x ^= x >> 16u;
+    y ^= y >> 16u;
+    z ^= z >> 16u;
+    w ^= w >> 16u;
+    x += y * w;
+    y += z * x;
+    z += x * y;
+    w += y * z;
+    return uvec4(x, y, z, w);
+}
+
+/// A number in [0, 1) from the upper 24 bits: exact in float on every device.
+float unitFloat(uint bits) { return float(bits >> 8u) * 5.96046448e-08f; }
+
+/// Four independent uniform numbers in [0, 1).
+vec4 random4(uint pixel, uint sampleIndex, uint dimension)
+{
+    uvec4 bits = hash4(pixel, sampleIndex, dimension, frame.seed);
+    return vec4(unitFloat(bits.x), unitFloat(bits.y), unitFloat(bits.z), unitFloat(bits.w));
+}

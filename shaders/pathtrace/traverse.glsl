@@ -1,0 +1,150 @@
+// The plain traversal of the tree, which every tuned one must equal.
+//
+// The hit does not depend on the order of visits: a triangle's distance is never taken to be smaller
+// than the entry into the triangle's own box, computed by the same function as for every other box.
+// Rounding is monotone, so a box that encloses another is never entered later; hence a subtree whose
+// box is entered behind the closest hit holds nothing closer. Equal distances go to the smallest
+// primitive number.
+
+// What box tests need of a ray.
+struct BoxRay
+{
+    vec3 inverse;  // 1 / direction, clamped so that no axis is infinite
+    vec3 orgLo;    // origin moved outwards a little for the lower and the upper planes of a box, so
+    vec3 orgHi;    // that a ray inside a box's plane meets the box
+};
+
+float clampedInverse(float d)
+{
+    return absolute(d) < 1e-18f ? (d < 0.0f ? -1e18f : 1e18f) : quotient(1.0f, d);
+}
+
+BoxRay makeBoxRay(vec3 org, vec3 dir)
+{
+    BoxRay ray;
+    ray.inverse = vec3(clampedInverse(dir.x), clampedInverse(dir.y), clampedInverse(dir.z));
+    vec3 pad = absolute3(org) * 2.38418579e-07f + vec3(1e-20f);
+    ray.orgLo = org + pad;
+    ray.orgHi = org - pad;
+    return ray;
+}
+
+/// Tests a box against the part of the ray up to tMax.
+///   entry  distance at which the ray enters, 0 when it starts inside [m]
+bool intersectBox(BoxRay ray, vec3 lo, vec3 hi, float tMax, OUT(float) entry)
+{
+    vec3 a = (lo - ray.orgLo) * ray.inverse;
+    vec3 b = (hi - ray.orgHi) * ray.inverse;
+    entry = max2(max2(max2(min2(a.x, b.x), min2(a.y, b.y)), min2(a.z, b.z)), 0.0f);
+    float leave = min2(min2(min2(max2(a.x, b.x), max2(a.y, b.y)), max2(a.z, b.z)), tMax);
+    return entry <= leave;
+}
+
+Traversal beginTraversal(float tMax)
+{
+    Traversal walk;
+    walk.ref = frame.rootRef;
+    walk.stackSize = 0u;
+    walk.slot = NO_HIT;
+    walk.primitive = NO_HIT;
+    walk.tHit = tMax;
+    walk.b1 = 0.0f;
+    walk.b2 = 0.0f;
+    walk.unused0 = 0u;
+    return walk;
+}
+
+/// Tests the triangle in `slot` and keeps it in `walk` when it is the closest so far.
+void visitTriangle(vec3 org, ShearedRay sheared, BoxRay boxes, uint slot, INOUT(Traversal) walk)
+{
+    Triangle triangle = loadTriangle(slot);
+    float t;
+    float b1;
+    float b2;
+    if (!intersectTriangle(org, sheared, triangle, t, b1, b2)) return;
+
+    vec3 lo = vec3(min2(min2(triangle.p0.x, triangle.p1.x), triangle.p2.x),
+                   min2(min2(triangle.p0.y, triangle.p1.y), triangle.p2.y),
+                   min2(min2(triangle.p0.z, triangle.p1.z), triangle.p2.z));
+    vec3 hi = vec3(max2(max2(triangle.p0.x, triangle.p1.x), triangle.p2.x),
+                   max2(max2(triangle.p0.y, triangle.p1.y), triangle.p2.y),
+                   max2(max2(triangle.p0.z, triangle.p1.z), triangle.p2.z));
+    float entry;
+    if (!intersectBox(boxes, lo, hi, walk.tHit, entry)) return;
+    t = max2(t, entry);
+    if (t < walk.tHit || (t == walk.tHit && triangle.primitive < walk.primitive)) {
+        walk.slot = slot;
+        walk.primitive = triangle.primitive;
+        walk.tHit = t;
+        walk.b1 = b1;
+        walk.b2 = b2;
+    }
+}
+
+void pushRef(uint ref, INOUT(Traversal) walk)
+{
+    if (walk.stackSize < STACK_SIZE) {
+        stack[walk.stackSize] = ref;
+        walk.stackSize++;
+    } else {
+        faults |= FAULT_STACK_OVERFLOW;
+    }
+}
+
+uint popRef(INOUT(Traversal) walk)
+{
+    if (walk.stackSize == 0u) return REF_NONE;
+    walk.stackSize--;
+    return stack[walk.stackSize];
+}
+
+/// Visits an inner node: returns the child to visit next and pushes the other one, if it is met too.
+uint visitNode(BoxRay boxes, INOUT(Traversal) walk)
+{
+    BvhNode node = loadNode(walk.ref);
+    tally.boxTests += 2u;
+    float entry0;
+    float entry1;
+    bool met0 = intersectBox(boxes, node.lo0, node.hi0, walk.tHit, entry0);
+    bool met1 = intersectBox(boxes, node.lo1, node.hi1, walk.tHit, entry1);
+    if (met0 && met1) {
+        bool firstIs0 = TRAVERSAL_ORDER == ORDER_NEAR_FIRST ? entry0 <= entry1
+                                                            : TRAVERSAL_ORDER == ORDER_LEFT_FIRST;
+        pushRef(firstIs0 ? node.ref1 : node.ref0, walk);
+        return firstIs0 ? node.ref0 : node.ref1;
+    }
+    if (met0) return node.ref0;
+    if (met1) return node.ref1;
+    return popRef(walk);
+}
+
+/// Walks on until the closest hit (or, for anyHit, some hit) is known or the steps are spent.
+/// Returns true when the walk is over. Every loop says whether it ended by its own condition:
+/// a driver that cuts a loop short leaves a fault behind.
+bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) walk)
+{
+    BoxRay boxes = makeBoxRay(org, dir);
+    ShearedRay sheared = shearRay(dir);
+    while (walk.ref != REF_NONE && stepsLeft != 0u) {
+        while ((walk.ref & REF_LEAF) == 0u && stepsLeft != 0u) {
+            stepsLeft--;
+            walk.ref = visitNode(boxes, walk);
+        }
+        if ((walk.ref & REF_LEAF) == 0u && stepsLeft != 0u) faults |= FAULT_LOOP_CUT;
+        if (walk.ref == REF_NONE || stepsLeft == 0u || faults != 0u) break;
+
+        uint first = (walk.ref & ~REF_LEAF) >> LEAF_COUNT_BITS;
+        uint count = (walk.ref & (MAX_LEAF_SIZE - 1u)) + 1u;
+        uint i = 0u;
+        while (i < count) {
+            visitTriangle(org, sheared, boxes, first + i, walk);
+            i++;
+        }
+        if (i != count) faults |= FAULT_LOOP_CUT;
+        tally.primitiveTests += count;
+        stepsLeft = stepsLeft > count ? stepsLeft - count : 0u;
+        walk.ref = anyHit && walk.slot != NO_HIT ? REF_NONE : popRef(walk);
+    }
+    if (walk.ref != REF_NONE && stepsLeft != 0u) faults |= FAULT_LOOP_CUT;
+    return walk.ref == REF_NONE;
+}
