@@ -1,0 +1,113 @@
+// Adding blocks and films up, and the mean picture.
+#include "film/film.h"
+
+#include "util/error.h"
+
+#include <cassert>
+
+namespace sahl {
+
+void Counters::add(const Counters& other)
+{
+    cameraRays += other.cameraRays;
+    indirectRays += other.indirectRays;
+    shadowRays += other.shadowRays;
+    boxTests += other.boxTests;
+    primitiveTests += other.primitiveTests;
+    bounces += other.bounces;
+    badSamples += other.badSamples;
+}
+
+namespace {
+
+void addBlock(HalfPixel& pixel, const PixelBlock& block)
+{
+    for (int c = 0; c < 3; c++) pixel.sum[c].add(Fixed64x64::fromFloat(block.sum[c]));
+    pixel.sumY2.add(Fixed64x64::fromFloat(block.sumY2));
+    pixel.samples += block.samplesDone;
+}
+
+Counters countersOf(const PixelBlock& block)
+{
+    Counters counters;
+    counters.cameraRays = block.samplesDone;
+    counters.indirectRays = block.indirectRays;
+    counters.shadowRays = block.shadowRays;
+    counters.boxTests = block.boxTests;
+    counters.primitiveTests = block.primitiveTests;
+    counters.bounces = block.bounces;
+    counters.badSamples = block.badSamples;
+    return counters;
+}
+
+}  // namespace
+
+Film::Film(uint32_t filmWidth, uint32_t filmHeight) : width(filmWidth), height(filmHeight)
+{
+    const size_t pixels = size_t{width} * height;
+    for (std::vector<HalfPixel>& pixelsOfHalf : half) pixelsOfHalf.resize(pixels);
+    digest.resize(pixels);
+}
+
+void Film::add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,
+               uint32_t firstSample, std::span<const PixelBlock> blocks)
+{
+    assert(x <= width && tileWidth <= width - x && y <= height && tileHeight <= height - y);
+    assert(blocks.size() == size_t{tileWidth} * tileHeight);
+    assert(firstSample % BLOCK_SIZE == 0);
+    std::vector<HalfPixel>& target = half[firstSample / BLOCK_SIZE % 2];
+    for (uint32_t row = 0; row < tileHeight; row++) {
+        for (uint32_t column = 0; column < tileWidth; column++) {
+            const PixelBlock& block = blocks[size_t{row} * tileWidth + column];
+            assert(block.status == BLOCK_IDLE && block.samplesDone <= BLOCK_SIZE);
+            const size_t pixel = size_t{y + row} * width + x + column;
+            addBlock(target[pixel], block);
+            digest[pixel] += block.digest;
+            counters.add(countersOf(block));
+        }
+    }
+}
+
+void Film::merge(const Film& other)
+{
+    if (width != other.width || height != other.height) {
+        throw badInput("films of {} x {} and {} x {} pixels cannot be merged", width, height,
+                       other.width, other.height);
+    }
+    for (int h = 0; h < 2; h++) {
+        for (size_t i = 0; i < half[h].size(); i++) {
+            HalfPixel& pixel = half[h][i];
+            const HalfPixel& added = other.half[h][i];
+            for (int c = 0; c < 3; c++) pixel.sum[c].add(added.sum[c]);
+            pixel.sumY2.add(added.sumY2);
+            pixel.samples += added.samples;
+        }
+    }
+    for (size_t i = 0; i < digest.size(); i++) digest[i] += other.digest[i];
+    counters.add(other.counters);
+}
+
+Image meanImage(const Film& film)
+{
+    Image image;
+    image.width = film.width;
+    image.height = film.height;
+    image.rgb.resize(film.digest.size() * 3);
+    for (size_t i = 0; i < film.digest.size(); i++) {
+        const HalfPixel& a = film.half[0][i];
+        const HalfPixel& b = film.half[1][i];
+        const uint64_t samples = uint64_t{a.samples} + b.samples;
+        if (samples == 0) continue;
+        for (size_t c = 0; c < 3; c++) {
+            // The sum is exact; from here on there is one rounding each to double, by the
+            // division, and to float.
+            Fixed64x64 sum = a.sum[c];
+            sum.add(b.sum[c]);
+            image.rgb[3 * i + c] =
+                static_cast<float>(sum.toDouble() / static_cast<double>(samples));
+        }
+    }
+    return image;
+}
+
+}  // namespace sahl

@@ -1,0 +1,21 @@
+// A first look at an EXR file with code of our own: whether it is of the plain kind that we read,
+// before the library sees it.
+#pragma once
+
+#include "image/image_readers.h"
+
+namespace sahl {
+
+struct ExrHeader {
+    int32_t minX = 0, minY = 0;      // data window, top left [pixels]
+    uint32_t width = 0, height = 0;  // of the data window
+    bool grey = false;               // Y instead of R, G, B
+};
+
+/// Throws badInput unless the file is a single-part picture (scanlines or tiles, any compression)
+/// with channels R, G, B or Y at full resolution, within the limits of readImage, and long enough
+/// to hold its own table of chunks. Warns where the pixels are less than the displayed picture or
+/// not in Rec. 709.
+ExrHeader checkExrHeader(const ImageFile& file);
+
+}  // namespace sahl

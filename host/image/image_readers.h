@@ -1,0 +1,27 @@
+// The readers behind readImage, one per format. Each gets the whole file and throws badInput.
+#pragma once
+
+#include "image/image.h"
+
+#include <span>
+
+namespace sahl {
+
+/// An input file in memory. `name` is for messages.
+struct ImageFile {
+    std::string name;
+    std::span<const uint8_t> bytes;
+};
+
+/// Throws badInput unless a picture of this size is within the limits of readImage and believable
+/// for a file of this length: no format of ours packs large pictures 2000 times smaller.
+void requireImageSize(const ImageFile& file, int64_t width, int64_t height);
+
+/// A black picture of that size, after requireImageSize.
+Image makeImage(const ImageFile& file, int64_t width, int64_t height);
+
+Image decodePfm(const ImageFile& file);
+Image decodeHdr(const ImageFile& file);
+Image decodeExr(const ImageFile& file);
+
+}  // namespace sahl
