@@ -13,7 +13,8 @@
 
 namespace sahl {
 
-/// What a device reads: spans over the scene's arrays and its tree. Must outlive the upload only.
+/// What a device reads: spans over the scene's arrays and its tree. They must stay valid until the
+/// next setScene() or the end of the device: the CPU reads them in place.
 struct DeviceScene {
     std::span<const BvhNode> nodes;
     std::span<const Triangle> triangles;  ///< in leaf order

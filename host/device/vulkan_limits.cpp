@@ -1,0 +1,127 @@
+#include "device/vulkan_limits.h"
+
+#include "shared/bindings.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+namespace sahl {
+
+namespace {
+
+constexpr uint64_t TEXEL_BYTES = 16;
+constexpr uint32_t TILE_STORAGE_BUFFERS = 2;  // pixels and suspended paths
+constexpr uint32_t ALL_STORAGE_BUFFERS = TILE_STORAGE_BUFFERS + SCENE_BUFFER_COUNT;
+
+/// Empty, or why scenes cannot be read through texel buffers at all.
+std::string whyNoTexelBuffers(const PhysicalDevice& device)
+{
+    uint32_t allowed = device.properties.limits.maxPerStageDescriptorSampledImages;
+    if (!device.rgba32uiTexelBuffers) return "no texel buffers of format R32G32B32A32_UINT";
+    if (allowed < SCENE_BUFFER_COUNT)
+        return fmt::format("{} texel buffers a shader, needs {}", allowed, SCENE_BUFFER_COUNT);
+    return {};
+}
+
+std::string whyNoStorageBuffers(const PhysicalDevice& device)
+{
+    uint32_t allowed = device.properties.limits.maxPerStageDescriptorStorageBuffers;
+    if (allowed < ALL_STORAGE_BUFFERS)
+        return fmt::format("{} storage buffers a shader, needs {}", allowed, ALL_STORAGE_BUFFERS);
+    return {};
+}
+
+/// Empty, or the first array that is too large for one binding.
+std::string whyTooLarge(const SceneBytes& bytes, uint64_t unit, uint64_t limit, const char* unitName)
+{
+    for (uint32_t i = 0; i < SCENE_BUFFER_COUNT; i++)
+        if (bytes[i] / unit > limit)
+            return fmt::format("array '{}' has {} {}, the device allows {}", sceneArrayName(i),
+                               bytes[i] / unit, unitName, limit);
+    return {};
+}
+
+}  // namespace
+
+const char* sceneArrayName(uint32_t binding)
+{
+    constexpr const char* NAMES[SCENE_BUFFER_COUNT] = {"nodes",     "triangles", "normals",
+                                                       "materials", "lights",    "probe"};
+    return NAMES[binding];
+}
+
+std::string whyUnusable(const PhysicalDevice& device)
+{
+    if (!device.unusable.empty()) return device.unusable;
+    const VkPhysicalDeviceLimits& limits = device.properties.limits;
+    std::string noTexels = whyNoTexelBuffers(device);
+    std::string noStorage = whyNoStorageBuffers(device);
+    if (limits.maxPerStageDescriptorStorageBuffers < TILE_STORAGE_BUFFERS) return noStorage;
+    if (!noTexels.empty() && !noStorage.empty())
+        return fmt::format("it has {}, and {}", noTexels, noStorage);
+    if (limits.maxPushConstantsSize < sizeof(Dispatch))
+        return fmt::format("it has {} bytes of push constants, needs {}",
+                           limits.maxPushConstantsSize, sizeof(Dispatch));
+    if (limits.maxUniformBufferRange < sizeof(Frame))
+        return fmt::format("it has {} bytes of uniform buffer, needs {}",
+                           limits.maxUniformBufferRange, sizeof(Frame));
+    return {};
+}
+
+bool chooseTexelBuffers(const PhysicalDevice& device, const SceneBytes& bytes,
+                        DeviceOptions::Buffers wanted)
+{
+    const VkPhysicalDeviceLimits& limits = device.properties.limits;
+    std::string noTexels = whyNoTexelBuffers(device);
+    if (noTexels.empty())
+        noTexels = whyTooLarge(bytes, TEXEL_BYTES, limits.maxTexelBufferElements, "texels");
+    std::string noStorage = whyNoStorageBuffers(device);
+    if (noStorage.empty()) noStorage = whyTooLarge(bytes, 1, limits.maxStorageBufferRange, "bytes");
+
+    if (wanted != DeviceOptions::Buffers::storage && noTexels.empty()) return true;
+    if (wanted != DeviceOptions::Buffers::texel && noStorage.empty()) return false;
+    std::string why = fmt::format("texel buffers: {}; storage buffers: {}", noTexels, noStorage);
+    if (wanted == DeviceOptions::Buffers::texel) why = "texel buffers: " + noTexels;
+    if (wanted == DeviceOptions::Buffers::storage) why = "storage buffers: " + noStorage;
+    throw Error(ErrorKind::noDevice,
+                fmt::format("the scene does not fit '{}' ({}); try another device or --device cpu",
+                            device.name, why));
+}
+
+std::array<uint32_t, 2> chooseGroupShape(const PhysicalDevice& device, uint32_t width,
+                                         uint32_t height)
+{
+    const VkPhysicalDeviceLimits& limits = device.properties.limits;
+    width = std::clamp(width, 1u, limits.maxComputeWorkGroupSize[0]);
+    height = std::clamp(height, 1u, limits.maxComputeWorkGroupSize[1]);
+    while (uint64_t{width} * height > limits.maxComputeWorkGroupInvocations)
+        (width >= height ? width : height) /= 2;
+    return {width, height};
+}
+
+uint32_t chooseStackSize(uint32_t treeDepth)
+{
+    for (uint32_t size : {16u, 24u, 32u, 48u, MAX_STACK_SIZE})
+        if (size >= treeDepth) return size;
+    throw badInput("the scene's tree is {} levels deep, at most {} can be traversed; build it again",
+                   treeDepth, MAX_STACK_SIZE);
+}
+
+uint32_t defaultStepBudget(const PhysicalDevice& device)
+{
+    // Mesa 22.3's lavapipe ends all loops of a SIMD group of 8 invocations after 65,535 iterations
+    // together. 4000 steps each stay well below, with room for the loops inside a step.
+    return device.kind == "software" ? 4000 : 1u << 16;
+}
+
+uint32_t tilePixelLimit(const PhysicalDevice& device)
+{
+    // Enough invocations to fill the device; small enough on software to answer Ctrl-C soon.
+    uint64_t wanted = device.kind == "software" ? 1u << 16 : 1u << 18;
+    uint64_t range = std::min<uint64_t>(device.properties.limits.maxStorageBufferRange,
+                                        device.maxAllocationBytes);
+    return static_cast<uint32_t>(std::min(wanted, range / sizeof(SuspendedPath)));
+}
+
+}  // namespace sahl

@@ -1,0 +1,40 @@
+// How the path tracing kernels fit a Vulkan device: which kind of buffer holds the scene, the shape
+// of a workgroup, the size of the stack, and what the device lacks.
+#pragma once
+
+#include "device/device.h"
+#include "vulkan/physical_device.h"
+
+#include <array>
+
+namespace sahl {
+
+/// Bytes of each of a scene's arrays, by binding.
+using SceneBytes = std::array<uint64_t, SCENE_BUFFER_COUNT>;
+
+/// Name of the array at a binding, for messages.
+const char* sceneArrayName(uint32_t binding);
+
+/// Empty, or why no kernel of ours can run on the device, whatever the scene.
+std::string whyUnusable(const PhysicalDevice& device);
+
+/// True to read the scene through texel buffers, false for storage buffers. Texel buffers are
+/// preferred (1.2 to 1.9 times as fast on lavapipe), and taken when every array fits.
+/// Throws noDevice with the numbers when the forced kind, or both, cannot hold the scene.
+bool chooseTexelBuffers(const PhysicalDevice& device, const SceneBytes& bytes,
+                        DeviceOptions::Buffers wanted);
+
+/// Width and height of a workgroup: as wanted, halved until the device allows it.
+std::array<uint32_t, 2> chooseGroupShape(const PhysicalDevice& device, uint32_t width,
+                                         uint32_t height);
+
+/// Smallest compiled stack that holds `treeDepth` entries. Throws badInput above MAX_STACK_SIZE.
+uint32_t chooseStackSize(uint32_t treeDepth);
+
+/// Steps one invocation takes a dispatch when the user named none.
+uint32_t defaultStepBudget(const PhysicalDevice& device);
+
+/// Largest tile [pixels]: bounded by the suspended paths, which must fit one storage buffer.
+uint32_t tilePixelLimit(const PhysicalDevice& device);
+
+}  // namespace sahl

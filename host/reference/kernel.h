@@ -1,0 +1,60 @@
+// The path tracer's text compiled as C++: the same arithmetic as on the device, by an ordinary compiler.
+// The text is included inside a struct whose members stand for the device's buffers.
+#pragma once
+
+#include "shared/bindings.h"
+#include "shared/film_types.h"
+#include "shared/scene_types.h"
+
+#include <glm/gtc/type_precision.hpp>
+
+#include <span>
+
+#define CONST static constexpr
+#define OUT(T) T&
+#define INOUT(T) T&
+
+namespace sahl::reference {
+
+using namespace glm;  // GLSL's names: floor, sqrt, floatBitsToUint, ...
+
+/// One invocation. Order is one of ORDER_*.
+template <uint Order = ORDER_NEAR_FIRST>
+struct Kernel {
+    static constexpr uint STACK_SIZE = MAX_STACK_SIZE;
+    static constexpr uint TRAVERSAL_ORDER = Order;
+
+    std::span<const BvhNode> nodes;
+    std::span<const Triangle> triangles;
+    std::span<const TriangleNormals> triangleNormals;
+    std::span<const Material> materials;
+    std::span<const Light> lights;
+    std::span<const vec4> probeTexels;
+    Frame frame;
+
+    const BvhNode& loadNode(uint index) const { return nodes[index]; }
+    const Triangle& loadTriangle(uint index) const { return triangles[index]; }
+    const TriangleNormals& loadNormals(uint index) const { return triangleNormals[index]; }
+    const Material& loadMaterial(uint index) const { return materials[index]; }
+    const Light& loadLight(uint index) const { return lights[index]; }
+    vec3 loadProbeTexel(uint index) const { return vec3(probeTexels[index]); }
+
+#include "pathtrace/pathtrace.glsl"
+
+    /// Renders sample `sampleIndex` of pixel (x, y) and adds it to the block.
+    void renderSample(uint x, uint y, uint sampleIndex, PixelBlock& block)
+    {
+        tally = {};
+        faults = 0;
+        PathState path = beginPath(x, y, sampleIndex);
+        Traversal walk = beginPathTraversal(path);
+        while (path.phase != PHASE_ENDED && faults == 0) {
+            stepsLeft = 0xffffffffu;
+            advancePath(path, walk);
+        }
+        addSample(path, block);
+        block.faults |= faults;
+    }
+};
+
+}  // namespace sahl::reference

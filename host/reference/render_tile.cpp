@@ -1,0 +1,54 @@
+#include "reference/render_tile.h"
+
+#include "reference/kernel.h"
+#include "util/parallel.h"
+
+namespace sahl::reference {
+
+namespace {
+
+template <uint Order>
+void renderTileInOrder(const DeviceScene& scene, const TileRequest& tile, unsigned threads,
+                       std::span<PixelBlock> blocks)
+{
+    parallelFor(tile.height, threads, [&](size_t row) {
+        Kernel<Order> kernel = {};
+        kernel.nodes = scene.nodes;
+        kernel.triangles = scene.triangles;
+        kernel.triangleNormals = scene.triangleNormals;
+        kernel.materials = scene.materials;
+        kernel.lights = scene.lights;
+        kernel.probeTexels = scene.probeTexels;
+        kernel.frame = scene.frame;
+        for (uint x = 0; x < tile.width; x++) {
+            PixelBlock block = {};
+            for (uint i = 0; i < tile.sampleCount; i++) {
+                kernel.renderSample(tile.x + x, tile.y + static_cast<uint>(row), tile.firstSample + i, block);
+            }
+            blocks[row * tile.width + x] = block;
+        }
+    });
+}
+
+}  // namespace
+
+void renderTile(const DeviceScene& scene, const TileRequest& tile, uint order, unsigned threads,
+                std::span<PixelBlock> blocks)
+{
+    switch (order) {
+    case ORDER_LEFT_FIRST: return renderTileInOrder<ORDER_LEFT_FIRST>(scene, tile, threads, blocks);
+    case ORDER_RIGHT_FIRST: return renderTileInOrder<ORDER_RIGHT_FIRST>(scene, tile, threads, blocks);
+    default: return renderTileInOrder<ORDER_NEAR_FIRST>(scene, tile, threads, blocks);
+    }
+}
+
+std::string compilerName()
+{
+#if defined(__clang__)
+    return "clang " __clang_version__;
+#else
+    return "gcc " __VERSION__;
+#endif
+}
+
+}  // namespace sahl::reference
