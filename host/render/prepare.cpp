@@ -1,0 +1,36 @@
+#include "render/prepare.h"
+
+namespace sahl {
+
+DeviceScene PreparedScene::deviceScene() const
+{
+    DeviceScene view;
+    view.nodes = bvh.nodes;
+    view.triangles = bvh.triangles;
+    view.triangleNormals = scene.triangleNormals;
+    view.materials = scene.materials;
+    view.lights = scene.lights;
+    view.probeTexels = scene.probeTexels;
+    view.treeDepth = bvh.statistics.depth;
+    view.frame.camera = scene.camera;
+    view.frame.probe = scene.probe;
+    view.frame.width = scene.settings.width;
+    view.frame.height = scene.settings.height;
+    view.frame.seed = scene.settings.seed;
+    view.frame.maxBounces = scene.settings.maxBounces;
+    view.frame.rootRef = bvh.rootRef;
+    view.frame.lightCount = static_cast<uint>(scene.lights.size());
+    view.frame.triangleCount = static_cast<uint>(bvh.triangles.size());
+    return view;
+}
+
+PreparedScene prepareScene(Scene scene, BvhBuild build, unsigned threads)
+{
+    PreparedScene prepared;
+    prepared.bvh = buildBvh(scene.triangles, build, threads);
+    prepared.scene = std::move(scene);
+    prepared.scene.triangles = {};
+    return prepared;
+}
+
+}  // namespace sahl

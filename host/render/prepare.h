@@ -1,0 +1,21 @@
+// From a scene to what a device reads: the tree is built and the frame filled in.
+#pragma once
+
+#include "bvh/bvh.h"
+#include "device/device.h"
+#include "scene/scene.h"
+
+namespace sahl {
+
+/// A scene with its tree. scene.triangles is empty: they are in bvh.triangles, in leaf order.
+struct PreparedScene {
+    Scene scene;
+    Bvh bvh;
+
+    /// Views into this object, which must outlive the device's use of them.
+    DeviceScene deviceScene() const;
+};
+
+PreparedScene prepareScene(Scene scene, BvhBuild build, unsigned threads);
+
+}  // namespace sahl

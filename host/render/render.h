@@ -1,0 +1,43 @@
+// The render loop: passes over tiles, progress, and stopping between whole passes.
+#pragma once
+
+#include "device/device.h"
+#include "film/film.h"
+
+#include <functional>
+
+namespace sahl {
+
+/// Which samples to take of the whole picture, and in what pieces. The pieces change no bit.
+struct RenderPlan {
+    uint32_t width = 0, height = 0;  ///< [pixels]
+    uint32_t firstSample = 0;        ///< multiple of BLOCK_SIZE
+    uint32_t sampleCount = 0;        ///< per pixel, at least 1
+    uint32_t tileSize = 0;           ///< side of a tile [pixels]; 0: as large as the device takes
+};
+
+struct RenderProgress {
+    double fraction = 0;         ///< of all samples of all pixels
+    uint32_t samplesDone = 0;    ///< per pixel, in whole passes
+    uint64_t rays = 0;           ///< of all kinds, so far
+    double seconds = 0;          ///< since the start of the loop
+    double relativeError = 0;    ///< see relativeError() in film/film_error.h; 0 while unknown
+};
+
+struct RenderResult {
+    Film film;
+    uint32_t passes = 0;       ///< whole passes in the film; a pass is one block of every pixel
+    bool interrupted = false;  ///< by a signal; a pass that was under way is not in the film, unless
+                               ///< it was the first: then its finished tiles are
+    double seconds = 0;
+};
+
+/// Calls device.render() for every tile of every pass; the device's scene must be set.
+/// `report` is called after every tile.
+RenderResult renderPicture(Device& device, const RenderPlan& plan,
+                           const std::function<void(const RenderProgress&)>& report);
+
+/// The tiles of a picture, row by row: no tile has more than maxPixels.
+std::vector<TileRequest> tilesOf(uint32_t width, uint32_t height, uint32_t tileSize, uint32_t maxPixels);
+
+}  // namespace sahl
