@@ -44,7 +44,7 @@ struct Counters {
 };
 
 struct Film {
-    Film(uint32_t filmWidth, uint32_t filmHeight);
+    explicit Film(uint32_t filmWidth = 0, uint32_t filmHeight = 0);
 
     uint32_t width, height;
     std::vector<HalfPixel> half[2];  ///< A: even blocks, B: odd blocks; width * height each

@@ -105,7 +105,9 @@ VerifyResult verifyDevice(Device& device, Device& reference, const DeviceScene& 
 {
     uint32_t width = scene.frame.width;
     uint32_t height = scene.frame.height;
-    VerifyResult result = {.deviceFilm = Film(width, height), .referenceFilm = Film(width, height)};
+    VerifyResult result;
+    result.deviceFilm = Film(width, height);
+    result.referenceFilm = Film(width, height);
     device.setScene(scene);
     reference.setScene(scene);
 

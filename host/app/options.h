@@ -1,0 +1,45 @@
+// Options that several subcommands share.
+#pragma once
+
+#include "bvh/bvh.h"
+#include "device/device.h"
+#include "scene/scene.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace sahl {
+
+struct CommonOptions {
+    std::string scenePath;  ///< empty: the built-in scene, where a command allows that
+    SceneOptions scene;
+    std::string device = "auto";
+    DeviceOptions deviceOptions;
+    BvhBuild bvhBuild = BvhBuild::automatic;
+    uint32_t tileSize = 0;
+    std::string progress = "auto";
+    bool quiet = false;
+    bool verbose = false;
+};
+
+/// Adds the options that choose and change a scene, in the groups "Scene" and "Sampling".
+void addSceneOptions(CLI::App& command, CommonOptions& options);
+
+/// Adds the options that choose a device and how work is cut up for it, in the groups "Device" and
+/// "Testing": none of the latter changes a bit of the picture.
+void addDeviceOptions(CLI::App& command, CommonOptions& options);
+
+void addMessageOptions(CLI::App& command, CommonOptions& options);
+
+/// Loads options.scenePath, or the built-in scene when it is empty.
+Scene loadSceneFor(const CommonOptions& options);
+
+/// Opens options.device and tells the user what was chosen, unless --quiet.
+std::unique_ptr<Device> openDeviceFor(const CommonOptions& options);
+
+/// Number of host threads in force.
+unsigned threadsFor(const CommonOptions& options);
+
+}  // namespace sahl

@@ -1,0 +1,108 @@
+#include "app/stats.h"
+
+#include "sahl_version.h"
+
+#include <sys/resource.h>
+
+namespace sahl {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+const char* nameOf(BvhBuild build) { return build == BvhBuild::binned ? "binned" : "sweep"; }
+
+double perSecond(uint64_t count, double seconds) { return seconds > 0 ? double(count) / seconds : 0; }
+
+/// Largest resident size of this process so far [bytes].
+uint64_t peakMemory()
+{
+    rusage usage = {};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace
+
+double Stopwatch::lap()
+{
+    auto now = std::chrono::steady_clock::now();
+    double seconds = std::chrono::duration<double>(now - lap_).count();
+    lap_ = now;
+    return seconds;
+}
+
+double Stopwatch::total() const
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+Json countersJson(const Counters& counters)
+{
+    return {{"cameraRays", counters.cameraRays},
+            {"indirectRays", counters.indirectRays},
+            {"shadowRays", counters.shadowRays},
+            {"boxTests", counters.boxTests},
+            {"primitiveTests", counters.primitiveTests},
+            {"bounces", counters.bounces},
+            {"badSamples", counters.badSamples}};
+}
+
+Json statisticsJson(const PreparedScene& prepared, const Film& film, Device& device,
+                    const StageSeconds& seconds)
+{
+    const Scene& scene = prepared.scene;
+    const BvhStatistics& tree = prepared.bvh.statistics;
+    const Counters& counters = film.counters;
+    DeviceInfo info = device.info();
+    DeviceStatistics work = device.statistics();
+    uint64_t rays = counters.cameraRays + counters.indirectRays + counters.shadowRays;
+    return {
+        {"version", 1},
+        {"sahl", SAHL_VERSION},
+        {"scene",
+         {{"name", scene.name},
+          {"triangles", prepared.bvh.triangles.size()},
+          {"droppedTriangles", scene.droppedTriangles},
+          {"materials", scene.materials.size()},
+          {"lights", scene.lights.size()},
+          {"width", scene.settings.width},
+          {"height", scene.settings.height},
+          {"maxBounces", scene.settings.maxBounces},
+          {"seed", scene.settings.seed}}},
+        {"tree",
+         {{"build", nameOf(tree.build)},
+          {"innerNodes", tree.innerNodes},
+          {"leaves", tree.leaves},
+          {"depth", tree.depth},
+          {"largestLeaf", tree.largestLeaf},
+          {"sahCost", tree.sahCost}}},
+        {"device",
+         {{"name", info.name},
+          {"driver", info.driver},
+          {"kind", info.kind},
+          {"texelBuffers", work.texelBuffers},
+          {"sceneBytes", work.sceneBytes},
+          {"dispatches", work.dispatches},
+          {"resumptions", work.resumptions},
+          {"retries", work.retries},
+          {"stepBudget", work.stepBudget}}},
+        {"counters", countersJson(counters)},
+        {"seconds",
+         {{"load", seconds.load},
+          {"build", seconds.build},
+          {"upload", seconds.upload},
+          {"render", seconds.render},
+          {"write", seconds.write},
+          {"total", seconds.total}}},
+        {"rates",
+         {{"samplesPerSecond", perSecond(counters.cameraRays, seconds.render)},
+          {"raysPerSecond", perSecond(rays, seconds.render)},
+          {"raysPerSample", counters.cameraRays > 0 ? double(rays) / double(counters.cameraRays) : 0},
+          {"boxTestsPerRay", rays > 0 ? double(counters.boxTests) / double(rays) : 0},
+          {"primitiveTestsPerRay", rays > 0 ? double(counters.primitiveTests) / double(rays) : 0}}},
+        {"peakMemoryBytes", peakMemory()},
+    };
+}
+
+}  // namespace sahl

@@ -1,0 +1,146 @@
+// sahl verify: does the device compute what the text says?
+
+#include "app/commands.h"
+#include "app/options.h"
+#include "app/outputs.h"
+#include "app/progress.h"
+#include "app/stats.h"
+#include "render/prepare.h"
+#include "render/verify.h"
+#include "util/error.h"
+#include "util/interrupt.h"
+
+#include <memory>
+
+namespace sahl {
+
+namespace {
+
+struct VerifyOptions {
+    CommonOptions common;
+    std::string differencePath;
+    bool json = false;
+};
+
+nlohmann::ordered_json blockJson(const PixelBlock& block)
+{
+    return {{"sum", {block.sum.x, block.sum.y, block.sum.z}},
+            {"sumY2", block.sumY2},
+            {"digest", fmt::format("{:08x}", block.digest)},
+            {"boxTests", block.boxTests},
+            {"primitiveTests", block.primitiveTests},
+            {"bounces", block.bounces}};
+}
+
+nlohmann::ordered_json verifyJson(const Scene& scene, const Device& device, const Device& reference,
+                                  const VerifyResult& result)
+{
+    auto side = [](const Device& d, double seconds) {
+        DeviceInfo info = d.info();
+        return nlohmann::ordered_json{{"name", info.name}, {"driver", info.driver}, {"seconds", seconds}};
+    };
+    nlohmann::ordered_json json = {{"version", 1},
+                                   {"scene", scene.name},
+                                   {"device", side(device, result.deviceSeconds)},
+                                   {"reference", side(reference, result.referenceSeconds)},
+                                   {"equal", result.equal()},
+                                   {"differingPixels", result.differingPixels},
+                                   {"differingFilmBits", result.differingFilmBits},
+                                   {"counters", countersJson(result.deviceFilm.counters)}};
+    if (result.first) {
+        const Divergence& first = *result.first;
+        json["first"] = {{"x", first.x},           {"y", first.y},         {"sample", first.sample},
+                         {"bounce", first.bounce}, {"stage", first.stage}, {"device", blockJson(first.device)},
+                         {"reference", blockJson(first.reference)}};
+    }
+    return json;
+}
+
+void printBlock(const char* who, const PixelBlock& block)
+{
+    fmt::print("  {:9}  radiance ({:a}, {:a}, {:a})  digest {:08x}  {} box tests, {} primitive tests\n", who,
+               block.sum.x, block.sum.y, block.sum.z, block.digest, block.boxTests, block.primitiveTests);
+}
+
+void printVerdict(const Scene& scene, const Device& device, const Device& reference, const VerifyResult& result)
+{
+    const RenderSettings& s = scene.settings;
+    fmt::print("scene      {}, {}x{}, {} spp, {} bounces\n", scene.name, s.width, s.height, s.spp, s.maxBounces);
+    for (const auto& [who, d] : {std::pair{"device   ", &device}, std::pair{"reference", &reference}}) {
+        fmt::print("{}  {} ({})\n", who, d->info().name, d->info().driver);
+    }
+    const Counters& c = result.deviceFilm.counters;
+    fmt::print("compared   {} pixels: film integers, path digests, counters ({} rays, {} box tests, {} primitive "
+               "tests)\n",
+               uint64_t{s.width} * s.height, c.cameraRays + c.indirectRays + c.shadowRays, c.boxTests,
+               c.primitiveTests);
+    if (result.equal()) {
+        fmt::print("EQUAL      0 differing bits\n");
+        return;
+    }
+    fmt::print("DIFFERENT  {} pixels, {} bits of the film\n", result.differingPixels, result.differingFilmBits);
+    if (!result.first) return;
+    const Divergence& first = *result.first;
+    fmt::print("first at pixel ({}, {}), sample {}, bounce {}: {}\n", first.x, first.y, first.sample, first.bounce,
+               first.stage);
+    printBlock("device", first.device);
+    printBlock("reference", first.reference);
+}
+
+int runVerify(VerifyOptions& options)
+{
+    setQuiet(options.common.quiet);
+    if (!options.differencePath.empty()) checkOutputs({options.differencePath}, {options.common.scenePath});
+    PreparedScene prepared =
+        prepareScene(loadSceneFor(options.common), options.common.bvhBuild, threadsFor(options.common));
+    std::unique_ptr<Device> device = openDeviceFor(options.common);
+    std::unique_ptr<Device> reference = makeCpuDevice(options.common.deviceOptions);
+
+    ProgressPrinter printer(options.common.progress, options.common.quiet || options.json, prepared.scene.settings.spp);
+    Stopwatch watch;
+    VerifyResult result = verifyDevice(*device, *reference, prepared.deviceScene(), prepared.scene.settings.spp,
+                                       options.common.tileSize, [&](double fraction) {
+                                           RenderProgress progress;
+                                           progress.fraction = fraction;
+                                           progress.seconds = watch.total();
+                                           printer.update(progress);
+                                       });
+    printer.finish();
+    if (result.interrupted) return interruptedExitCode();
+
+    if (options.json) {
+        fmt::print("{}\n", verifyJson(prepared.scene, *device, *reference, result).dump(2));
+    } else {
+        printVerdict(prepared.scene, *device, *reference, result);
+    }
+    if (!result.equal() && !options.differencePath.empty()) {
+        Image difference = differenceImage(result.deviceFilm, result.referenceFilm);
+        writeImage(difference, {}, options.differencePath, {});
+        if (!options.json) fmt::print("difference picture: {}\n", options.differencePath);
+    }
+    return result.equal() ? 0 : static_cast<int>(ErrorKind::checkFailed);
+}
+
+}  // namespace
+
+Command addVerifyCommand(CLI::App& app)
+{
+    auto options = std::make_shared<VerifyOptions>();
+    CLI::App* command =
+        app.add_subcommand("verify", "compare a device with the CPU reference, bit for bit");
+    command->add_option("scene", options->common.scenePath,
+                        "scene (.json) or mesh (.obj); without one a small built-in scene")
+        ->type_name("SCENE");
+    command->add_option("--difference", options->differencePath, "picture of |device - reference| if they differ")
+        ->type_name("FILE")->group("Output");
+    command->add_flag("--json", options->json, "the result as JSON on stdout")->group("Output");
+    addSceneOptions(*command, options->common);
+    addDeviceOptions(*command, options->common);
+    addMessageOptions(*command, options->common);
+    command->footer("Exit code 0: equal; 1: different.\n\nExamples:\n"
+                    "  sahl verify\n"
+                    "  sahl verify scene.json --device 0 --spp 8 --difference where.exr");
+    return [options] { return runVerify(*options); };
+}
+
+}  // namespace sahl
