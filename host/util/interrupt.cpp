@@ -1,6 +1,7 @@
 #include "util/interrupt.h"
 
 #include <csignal>
+#include <initializer_list>
 #include <unistd.h>
 
 namespace sahl {
