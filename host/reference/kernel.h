@@ -30,7 +30,7 @@ struct Kernel {
     std::span<const Material> materials;
     std::span<const Light> lights;
     std::span<const vec4> probeTexels;
-    Frame frame;
+    Frame frame = {};
 
     const BvhNode& loadNode(uint index) const { return nodes[index]; }
     const Triangle& loadTriangle(uint index) const { return triangles[index]; }
