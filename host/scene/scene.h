@@ -31,7 +31,7 @@ struct Scene {
     std::vector<Light> lights;
     Probe probe = {0, 0, PROBE_LATLONG, FILTER_BILINEAR};
     std::vector<vec4> probeTexels;
-    Camera camera = {};  ///< `right` set for settings.width x settings.height, see frameCamera
+    Camera camera = {};  ///< `right` set for settings.width x settings.height, see makeCamera
     uint64_t droppedTriangles = 0;  ///< of zero area, left out while reading
 };
 

@@ -1,0 +1,180 @@
+#include "scene/mesh.h"
+
+#include "scene/numbers.h"
+#include "util/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+namespace sahl {
+
+namespace {
+
+/// Edges of about a nanometre: below this the squares in a float normal underflow.
+constexpr double SMALLEST_DOUBLE_AREA = 1e-18;  // [m^2]
+
+/// Twice the area, relative to the longest edge squared, that double arithmetic leaves of an exact
+/// zero: such corners lie on a line.
+constexpr double COLLINEAR = 1e-14;
+
+glm::dvec3 doubleAreaVector(const glm::dvec3& p0, const glm::dvec3& p1, const glm::dvec3& p2)
+{
+    return glm::cross(p1 - p0, p2 - p0);
+}
+
+double longestEdgeSquared(const glm::dvec3& p0, const glm::dvec3& p1, const glm::dvec3& p2)
+{
+    glm::dvec3 a = p1 - p0, b = p2 - p1, c = p0 - p2;
+    return std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
+}
+
+bool hasZeroArea(const vec3& p0, const vec3& p1, const vec3& p2)
+{
+    glm::dvec3 n = doubleAreaVector(p0, p1, p2);
+    double doubleArea = std::sqrt(glm::dot(n, n));
+    return doubleArea <= SMALLEST_DOUBLE_AREA ||
+           doubleArea <= COLLINEAR * longestEdgeSquared(p0, p1, p2);
+}
+
+/// Unit float vector, or zero when the direction is lost.
+vec3 unitOrZero(const glm::dvec3& v)
+{
+    double length = std::sqrt(glm::dot(v, v));
+    if (!(length > SMALLEST_MAGNITUDE) || !std::isfinite(length)) return vec3(0.0f);
+    return toFloat(v / length);
+}
+
+bool isZero(const vec3& v)
+{
+    return v.x == 0 && v.y == 0 && v.z == 0;
+}
+
+/// For each position the smallest index of an equal one.
+std::vector<uint32_t> weld(const std::vector<vec3>& positions)
+{
+    std::vector<uint32_t> order(positions.size());
+    std::iota(order.begin(), order.end(), 0u);
+    auto key = [&](uint32_t i) {
+        return std::make_tuple(positions[i].x, positions[i].y, positions[i].z);
+    };
+    std::sort(order.begin(), order.end(),
+              [&](uint32_t a, uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+    std::vector<uint32_t> first(positions.size());
+    for (size_t i = 0; i < order.size(); i++) {
+        bool same = i > 0 && key(order[i]) == key(order[i - 1]);
+        first[order[i]] = same ? first[order[i - 1]] : order[i];
+    }
+    return first;
+}
+
+std::vector<vec3> mapPositions(const Mesh& mesh, const Transform& transform,
+                               const std::string& name)
+{
+    std::vector<vec3> mapped;
+    mapped.reserve(mesh.positions.size());
+    for (const vec3& p : mesh.positions) {
+        glm::dvec3 q = mapPoint(transform, p);
+        double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+        if (!(largest <= std::numeric_limits<float>::max())) {
+            throw badInput("{}: a vertex lies outside the range of numbers after the transform",
+                           name);
+        }
+        mapped.push_back(toFloat(q));
+    }
+    return mapped;
+}
+
+std::vector<vec3> mapNormals(const Mesh& mesh, const Transform& transform)
+{
+    glm::dmat3 matrix = normalMatrix(transform);
+    std::vector<vec3> mapped;
+    mapped.reserve(mesh.normals.size());
+    for (const vec3& n : mesh.normals) mapped.push_back(unitOrZero(matrix * glm::dvec3(n)));
+    return mapped;
+}
+
+/// Adds the corner normals and returns their index, or NO_NORMALS when no corner has one.
+uint32_t addNormals(Scene& scene, const std::array<vec3, 3>& corners, const vec3& geometric)
+{
+    if (isZero(corners[0]) && isZero(corners[1]) && isZero(corners[2])) return NO_NORMALS;
+    auto orGeometric = [&](const vec3& n) { return isZero(n) ? geometric : n; };
+    auto index = static_cast<uint32_t>(scene.triangleNormals.size());
+    scene.triangleNormals.push_back(
+        {orGeometric(corners[0]), 0, orGeometric(corners[1]), 0, orGeometric(corners[2]), 0});
+    return index;
+}
+
+}  // namespace
+
+void makeSmoothNormals(Mesh& mesh)
+{
+    std::vector<uint32_t> first = weld(mesh.positions);
+    std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0.0));
+    for (const MeshTriangle& t : mesh.triangles) {
+        glm::dvec3 n =
+            doubleAreaVector(mesh.positions[t.position[0]], mesh.positions[t.position[1]],
+                             mesh.positions[t.position[2]]);
+        for (uint32_t corner : t.position) sums[first[corner]] += n;
+    }
+    auto base = static_cast<uint32_t>(mesh.normals.size());
+    for (const glm::dvec3& sum : sums) mesh.normals.push_back(unitOrZero(sum));
+    for (MeshTriangle& t : mesh.triangles) {
+        for (size_t k = 0; k < 3; k++) {
+            if (t.normal[k] == NO_NORMALS) t.normal[k] = base + first[t.position[k]];
+        }
+    }
+}
+
+uint64_t appendMesh(Scene& scene, const Mesh& mesh, const Transform& transform,
+                    std::span<const uint32_t> materials, const std::string& name)
+{
+    std::vector<vec3> positions = mapPositions(mesh, transform, name);
+    std::vector<vec3> normals = mapNormals(mesh, transform);
+    bool mirrors = determinant(transform) < 0;
+    uint64_t dropped = 0;
+    scene.triangles.reserve(scene.triangles.size() + mesh.triangles.size());
+    for (const MeshTriangle& t : mesh.triangles) {
+        std::array<size_t, 3> order = {0, mirrors ? size_t{2} : size_t{1},
+                                       mirrors ? size_t{1} : size_t{2}};
+        std::array<vec3, 3> p, n;
+        for (size_t k = 0; k < 3; k++) {
+            p[k] = positions.at(t.position[order[k]]);
+            uint32_t normal = t.normal[order[k]];
+            n[k] = normal == NO_NORMALS ? vec3(0.0f) : normals.at(normal);
+        }
+        if (hasZeroArea(p[0], p[1], p[2])) {
+            dropped++;
+            continue;
+        }
+        if (scene.triangles.size() >= MAX_TRIANGLES) {
+            throw badInput("{}: the scene has more than {} triangles", name, MAX_TRIANGLES);
+        }
+        vec3 geometric = unitOrZero(doubleAreaVector(p[0], p[1], p[2]));
+        auto primitive = static_cast<uint32_t>(scene.triangles.size());
+        uint32_t material = materials[t.material];
+        uint32_t normalIndex = addNormals(scene, n, geometric);
+        scene.triangles.push_back({p[0], primitive, p[1], material, p[2], normalIndex});
+    }
+    scene.droppedTriangles += dropped;
+    return dropped;
+}
+
+void appendShape(Scene& scene, const Mesh& mesh, const Transform& transform, uint32_t material,
+                 const std::string& name)
+{
+    uint64_t dropped = appendMesh(scene, mesh, transform, {&material, 1}, name);
+    if (dropped > 0) warn(fmt::format("{}: left out {} triangles of zero area", name, dropped));
+}
+
+uint32_t addMaterial(Scene& scene, const std::string& name, const vec3& baseColor,
+                     const vec3& emission)
+{
+    scene.materials.push_back({baseColor, 0.0f, emission, MATERIAL_LAMBERT});
+    scene.materialNames.push_back(name);
+    return static_cast<uint32_t>(scene.materials.size() - 1);
+}
+
+}  // namespace sahl

@@ -1,0 +1,117 @@
+// MTL files: tinyobjloader reads them, after a check of the colours with line numbers, since it
+// takes 0 for whatever is not a number.
+#include "scene/numbers.h"
+#include "scene/obj_reader.h"
+#include "scene/statements.h"
+#include "util/error.h"
+
+#include <tiny_obj_loader.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+namespace sahl {
+
+namespace {
+
+constexpr uint64_t MAX_MTL_BYTES = uint64_t{64} << 20;
+constexpr double MAX_EMISSION = 1e18;
+
+/// What the check of an MTL file found out.
+struct MtlCheck {
+    std::set<std::string> withDiffuse;  ///< materials that have a Kd
+    std::set<std::string> unused;       ///< keywords that Sahl makes nothing of
+};
+
+void checkColor(const Statement& s, const std::string& file)
+{
+    std::string_view rest = s.rest;
+    size_t n = 0;
+    for (auto word = takeWord(rest); !word.empty() && word[0] != '#'; word = takeWord(rest), n++) {
+        double value = 0;
+        if (parseNumber(word, value) != NumberText::fine) {
+            throw badInput("{}:{}: \"{}\" is not a finite number; {} needs 3 of them", file, s.line,
+                           word.substr(0, 40), s.keyword);
+        }
+    }
+    if (n != 3) throw badInput("{}:{}: {} needs 3 numbers, found {}", file, s.line, s.keyword, n);
+}
+
+MtlCheck checkMtl(std::string_view text, const std::string& file)
+{
+    static const std::set<std::string_view> harmless = {"Ka", "illum", "newmtl"};
+    MtlCheck check;
+    StatementReader statements(text);
+    Statement s;
+    std::string material;
+    while (statements.next(s)) {
+        if (s.keyword == "newmtl") {
+            material = std::string(s.rest);
+        } else if (s.keyword == "Kd") {
+            checkColor(s, file);
+            check.withDiffuse.insert(material);
+        } else if (s.keyword == "Ke") {
+            checkColor(s, file);
+        } else if (harmless.count(s.keyword) == 0) {
+            check.unused.insert(std::string(s.keyword.substr(0, 20)));
+        }
+    }
+    return check;
+}
+
+/// Clamps each channel to [0, most]; counts a material whose colour changed.
+vec3 clampColor(const tinyobj::real_t (&color)[3], double most, uint64_t& clamped)
+{
+    vec3 result;
+    bool changed = false;
+    for (int i = 0; i < 3; i++) {
+        double value = color[i];
+        changed = changed || value < 0 || value > most;
+        result[i] = toFloat(std::clamp(value, 0.0, most));
+    }
+    if (changed) clamped++;
+    return result;
+}
+
+void tellUnused(const std::set<std::string>& unused, const std::string& file)
+{
+    if (unused.empty()) return;
+    std::string list;
+    for (const std::string& keyword : unused) list += (list.empty() ? "" : ", ") + keyword;
+    warn(fmt::format("{}: only Kd and Ke are used; left out: {}", file, list.substr(0, 200)));
+}
+
+}  // namespace
+
+void readMtl(const fs::path& file, std::map<std::string, ObjMaterial>& materials)
+{
+    std::string text = normaliseLines(readTextFile(file, MAX_MTL_BYTES), file.string());
+    MtlCheck check = checkMtl(text, file.string());
+
+    std::map<std::string, int> indices;
+    std::vector<tinyobj::material_t> read;
+    std::string warning, error;
+    std::istringstream stream(text);
+    tinyobj::LoadMtl(&indices, &read, &stream, &warning, &error);
+
+    uint64_t clamped = 0;
+    for (const tinyobj::material_t& m : read) {
+        std::string name(trimmed(m.name));
+        if (name.empty()) continue;  // tinyobjloader flushes an unnamed one from an empty file
+        ObjMaterial material;
+        material.name = name;
+        if (check.withDiffuse.count(name) > 0) {
+            material.baseColor = clampColor(m.diffuse, 1, clamped);
+        }
+        material.emission = clampColor(m.emission, MAX_EMISSION, clamped);
+        materials.emplace(name, material);
+    }
+    tellUnused(check.unused, file.string());
+    if (clamped > 0) {
+        warn(fmt::format("{}: {} colours outside [0,1] (Kd) or below 0 (Ke) were clamped",
+                         file.string(), clamped));
+    }
+}
+
+}  // namespace sahl

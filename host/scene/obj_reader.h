@@ -1,0 +1,34 @@
+// Wavefront OBJ and MTL files.
+#pragma once
+
+#include "scene/mesh.h"
+#include "scene/path_policy.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sahl {
+
+/// What Sahl uses of an MTL material.
+struct ObjMaterial {
+    std::string name;
+    vec3 baseColor = vec3(0.7f);  ///< Kd, clamped to [0,1]; grey where the file gives none
+    vec3 emission = vec3(0.0f);   ///< Ke [W m^-2 sr^-1]
+};
+
+struct ObjFile {
+    Mesh mesh;                           ///< triangles[i].material is an index in `materials`
+    std::vector<ObjMaterial> materials;  ///< those in use; "default" for faces without one
+};
+
+/// Reads an OBJ file and the MTL files it names. Polygons are cut into triangles.
+/// Throws badInput naming file and line: a number that is not finite, an index out of range, a
+/// malformed statement, no faces at all. Warns once per kind about what it leaves out or replaces:
+/// faces with fewer than 3 corners, lines and points, unknown statements, missing materials.
+ObjFile readObj(const fs::path& file, const PathPolicy& policy);
+
+/// Reads the materials of an MTL file into `materials`; a name that is there already stays.
+void readMtl(const fs::path& file, std::map<std::string, ObjMaterial>& materials);
+
+}  // namespace sahl

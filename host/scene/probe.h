@@ -1,0 +1,29 @@
+// Light probes: pictures of the light from all directions, made ready for the device.
+#pragma once
+
+#include "image/image.h"
+#include "scene/scene.h"
+
+namespace sahl {
+
+/// Makes `picture` the scene's environment. Magnitudes below 1e-30 become 0; so do values that are
+/// negative or not finite, with one warning that counts them. In an angular map, texels whose
+/// centre lies outside the unit disc stand for no direction; each takes the value of the nearest
+/// texel towards the centre that lies inside, so that bilinear filtering at the rim reads sensible
+/// neighbours. A square picture taken as lat-long gets a warning.
+/// Throws badInput naming `name` when an angular map is not square.
+void setProbe(Scene& scene, const Image& picture, uint mapping, uint filter,
+              const std::string& name);
+
+/// PROBE_* for "latlong" or "angular", FILTER_* for "nearest" or "bilinear"; usage error otherwise.
+uint probeMapping(const std::string& word);
+uint probeFilter(const std::string& word);
+
+/// A photographer's studio as a lat-long picture (Debevec's orientation, see PROBE_LATLONG): a
+/// large warm softbox, a cooler fill, a rim light behind, walls in a gradient and a floor that
+/// bounces.
+Image makeStudioProbe(uint32_t width, uint32_t height);
+
+constexpr uint32_t STUDIO_WIDTH = 256, STUDIO_HEIGHT = 128;
+
+}  // namespace sahl

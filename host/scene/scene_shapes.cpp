@@ -1,0 +1,233 @@
+// The shapes of scene files: meshes from files, triangles written out, and procedural ones.
+#include "scene/numbers.h"
+#include "scene/primitives.h"
+#include "scene/scene_reading.h"
+
+#include <cmath>
+
+namespace sahl {
+
+namespace {
+
+bool isZero(const glm::dvec3& v)
+{
+    return glm::dot(v, v) == 0;
+}
+
+Transform readMatrix(const JsonObject& object, const JsonNode& node)
+{
+    const JsonDocument& document = object.document();
+    const auto& items = readArray(document, node, "\"matrix\" of " + object.what());
+    if (items.size() != 16) {
+        throw errorAt(document, node,
+                      fmt::format("\"matrix\" of {} needs 16 numbers, row by row, "
+                                  "found {}",
+                                  object.what(), items.size()));
+    }
+    double m[16];
+    for (size_t i = 0; i < 16; i++) m[i] = readNumber(document, items[i], "a matrix element", {});
+    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) {
+        throw errorAt(document, node, "the last row of \"matrix\" must be 0, 0, 0, 1");
+    }
+    Transform transform;
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++)
+            transform.linear[column][row] = m[4 * row + column];
+        transform.translation[row] = m[4 * row + 3];
+    }
+    return transform;
+}
+
+Transform readScale(const JsonObject& object, const JsonNode& node)
+{
+    std::string what = "\"scale\" of " + object.what();
+    if (node.kind == JsonNode::Kind::number) {
+        return scaling(glm::dvec3(readNumber(object.document(), node, what, {})));
+    }
+    return scaling(readVec3(object.document(), node, what, {}));
+}
+
+Transform readRotation(const JsonObject& object, const JsonNode& node)
+{
+    JsonObject rotationObject(object.document(), node, "\"rotateDeg\" of " + object.what(),
+                              "rotation");
+    glm::dvec3 axis = rotationObject.vector("axis", {});
+    if (isZero(axis)) throw errorAt(object.document(), node, "the axis of a rotation is zero");
+    return rotation(axis, rotationObject.number("angle", 0, {-1e6, 1e6}));
+}
+
+/// p' = translate * rotate * scale * matrix * p
+Transform readTransform(const JsonObject& shape)
+{
+    Transform transform;
+    const JsonNode* node = shape.find("transform");
+    if (!node) return transform;
+    JsonObject object(shape.document(), *node, "the transform of " + shape.what(), "transform");
+    if (const JsonNode* matrix = object.find("matrix")) transform = readMatrix(object, *matrix);
+    if (const JsonNode* scale = object.find("scale")) {
+        transform = compose(readScale(object, *scale), transform);
+    }
+    if (const JsonNode* rotate = object.find("rotateDeg")) {
+        transform = compose(readRotation(object, *rotate), transform);
+    }
+    transform = compose(translation(object.vector("translate", {})), transform);
+    double volume = determinant(transform);
+    if (volume == 0 || !std::isfinite(volume)) {
+        throw errorAt(
+            shape.document(), *node,
+            fmt::format("{} cannot be inverted: it flattens space or overflows", object.what()));
+    }
+    return transform;
+}
+
+uint32_t readMaterialName(SceneReading& reading, const JsonObject& shape)
+{
+    if (!shape.has("material")) {
+        auto [entry, isNew] = reading.materials.emplace("", 0);
+        if (isNew) entry->second = addMaterial(reading.scene, "default", vec3(0.7f));
+        return entry->second;
+    }
+    std::string name = shape.string("material", "");
+    auto found = name.empty() ? reading.materials.end() : reading.materials.find(name);
+    if (found != reading.materials.end()) return found->second;
+    std::vector<std::string> names;
+    for (const auto& [known, index] : reading.materials) names.push_back(known);
+    std::string near = suggestion(name, names);
+    throw errorAt(reading.document, shape.at("material"),
+                  fmt::format("material \"{}\" is not defined{}", name,
+                              near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+}
+
+std::vector<vec3> readPoints(const JsonObject& shape, const std::string& key)
+{
+    std::vector<vec3> points;
+    const JsonNode* node = shape.find(key);
+    if (!node) return points;
+    for (const JsonNode& item :
+         readArray(shape.document(), *node, "\"" + key + "\" of " + shape.what())) {
+        points.push_back(
+            toFloat(readVec3(shape.document(), item, "a point of \"" + key + "\"", {})));
+    }
+    return points;
+}
+
+Mesh readTriangles(const JsonObject& shape)
+{
+    const JsonDocument& document = shape.document();
+    Mesh mesh;
+    mesh.positions = readPoints(shape, "positions");
+    mesh.normals = readPoints(shape, "normals");
+    if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) {
+        throw errorAt(
+            document, shape.at("normals"),
+            fmt::format("{} has {} positions and {} normals; there must be a normal for each "
+                        "position",
+                        shape.what(), mesh.positions.size(), mesh.normals.size()));
+    }
+    const JsonNode& list = shape.at("indices");
+    for (const JsonNode& item : readArray(document, list, "\"indices\" of " + shape.what())) {
+        const auto& corners = readArray(document, item, "a triangle of \"indices\"");
+        if (corners.size() != 3) {
+            throw errorAt(document, item,
+                          fmt::format("a triangle needs 3 indices, found {}", corners.size()));
+        }
+        MeshTriangle triangle;
+        for (size_t k = 0; k < 3; k++) {
+            if (mesh.positions.empty()) throw errorAt(document, item, "there are no positions");
+            auto last = static_cast<uint32_t>(mesh.positions.size() - 1);
+            triangle.position[k] = readUint(document, corners[k], "an index", 0, last);
+            if (!mesh.normals.empty()) triangle.normal[k] = triangle.position[k];
+        }
+        mesh.triangles.push_back(triangle);
+    }
+    if (mesh.triangles.empty())
+        throw errorAt(document, list, fmt::format("{} has no faces", shape.what()));
+    return mesh;
+}
+
+Mesh readSphere(const JsonObject& shape)
+{
+    return makeSphere(shape.vector("center", {}), shape.number("radius", 1, {1e-9, 1e18}),
+                      shape.uint("level", 5, 0, MAX_SPHERE_LEVEL), shape.boolean("smooth", true));
+}
+
+Mesh readDisk(const JsonObject& shape)
+{
+    glm::dvec3 normal = shape.vector("normal", {0, 1, 0});
+    if (isZero(normal))
+        throw errorAt(shape.document(), shape.at("normal"), "the normal of a disk is zero");
+    return makeDisk(shape.vector("center", {}), normal, shape.number("radius", 1, {1e-9, 1e18}),
+                    shape.uint("segments", 64, 3, MAX_DISK_SEGMENTS));
+}
+
+void readMeshFile(SceneReading& reading, const JsonObject& shape)
+{
+    const JsonNode& fileNode = shape.at("file");
+    std::string where = reading.document.where(fileNode.offset);
+    fs::path path = resolvePath(reading.policy, reading.folder, shape.string("file", ""), where);
+    auto& obj = reading.objFiles[path];
+    if (!obj) obj = std::make_shared<ObjFile>(readObj(path, reading.policy));
+    bool smooth = shape.boolean("smoothNormals", false) || reading.options.smoothNormals;
+    Transform transform = readTransform(shape);
+    if (!shape.has("material")) {
+        appendObj(reading.scene, *obj, transform, smooth, path.string());
+        return;
+    }
+    ObjFile repainted = *obj;
+    for (MeshTriangle& triangle : repainted.mesh.triangles) triangle.material = 0;
+    if (smooth) makeSmoothNormals(repainted.mesh);
+    appendShape(reading.scene, repainted.mesh, transform, readMaterialName(reading, shape),
+                path.string());
+}
+
+}  // namespace
+
+void readShape(SceneReading& reading, const JsonNode& node)
+{
+    const JsonDocument& document = reading.document;
+    std::string type = readType(document, node, "a shape",
+                                {"mesh", "triangles", "teapot", "sphereMesh", "rectangle", "disk"});
+    JsonObject shape(document, node, fmt::format("the shape \"{}\"", type), type);
+    if (type == "mesh") return readMeshFile(reading, shape);
+
+    Mesh mesh;
+    if (type == "triangles") {
+        mesh = readTriangles(shape);
+        bool smooth = shape.boolean("smoothNormals", false) || reading.options.smoothNormals;
+        if (smooth) makeSmoothNormals(mesh);
+    } else if (type == "teapot") {
+        mesh = makeTeapot(shape.uint("subdivisions", 16, 1, MAX_TEAPOT_SUBDIVISIONS),
+                          shape.boolean("smooth", true));
+    } else if (type == "sphereMesh") {
+        mesh = readSphere(shape);
+    } else if (type == "rectangle") {
+        mesh = makeRectangle(shape.vector("corner", {}), shape.vector("edgeU", {}),
+                             shape.vector("edgeV", {}));
+    } else {
+        mesh = readDisk(shape);
+    }
+    appendShape(reading.scene, mesh, readTransform(shape), readMaterialName(reading, shape),
+                fmt::format("{}: {}", document.where(node.offset), shape.what()));
+}
+
+void appendObj(Scene& scene, const ObjFile& obj, const Transform& transform, bool smooth,
+               const std::string& name)
+{
+    std::vector<uint32_t> materials;
+    for (const ObjMaterial& m : obj.materials) {
+        materials.push_back(addMaterial(scene, m.name, m.baseColor, m.emission));
+    }
+    Mesh smoothMesh;
+    if (smooth) {
+        smoothMesh = obj.mesh;
+        makeSmoothNormals(smoothMesh);
+    }
+    uint64_t dropped =
+        appendMesh(scene, smooth ? smoothMesh : obj.mesh, transform, materials, name);
+    if (dropped == obj.mesh.triangles.size()) {
+        throw badInput("{}: no faces: all {} triangles have zero area", name, dropped);
+    }
+    if (dropped > 0) warn(fmt::format("{}: left out {} triangles of zero area", name, dropped));
+}
+
+}  // namespace sahl

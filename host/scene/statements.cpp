@@ -1,0 +1,78 @@
+#include "scene/statements.h"
+
+#include "util/error.h"
+
+#include <algorithm>
+
+namespace sahl {
+
+namespace {
+
+constexpr std::string_view BLANKS = " \t\v\f";
+
+[[noreturn]] void refuseZeroByte(const std::string& text, size_t at, const std::string& file)
+{
+    auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    throw badInput("{}:{}: a zero byte: this is binary or UTF-16, not text in UTF-8", file, line);
+}
+
+}  // namespace
+
+std::string normaliseLines(const std::string& text, const std::string& file)
+{
+    if (size_t zero = text.find('\0'); zero != std::string::npos) refuseZeroByte(text, zero, file);
+    std::string lines;
+    lines.reserve(text.size() + 1);
+    size_t joined = 0;  // line ends owed since the last real one
+    size_t i = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+    for (; i < text.size(); i++) {
+        if (text[i] != '\n' && text[i] != '\r') {
+            lines += text[i];
+            continue;
+        }
+        if (text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n') i++;
+        if (!lines.empty() && lines.back() == '\\') {
+            lines.back() = ' ';
+            joined++;
+        } else {
+            lines.append(joined + 1, '\n');
+            joined = 0;
+        }
+    }
+    return lines;
+}
+
+bool StatementReader::next(Statement& statement)
+{
+    while (!rest_.empty()) {
+        size_t end = std::min(rest_.find('\n'), rest_.size());
+        std::string_view line = rest_.substr(0, end);
+        rest_.remove_prefix(std::min(end + 1, rest_.size()));
+        line_++;
+        std::string_view words = trimmed(line);
+        if (words.empty() || words[0] == '#') continue;
+        statement.keyword = takeWord(words);
+        statement.rest = trimmed(words);
+        statement.line = line_;
+        return true;
+    }
+    return false;
+}
+
+std::string_view takeWord(std::string_view& rest)
+{
+    size_t begin = std::min(rest.find_first_not_of(BLANKS), rest.size());
+    size_t end = std::min(rest.find_first_of(BLANKS, begin), rest.size());
+    std::string_view word = rest.substr(begin, end - begin);
+    rest.remove_prefix(end);
+    return word;
+}
+
+std::string_view trimmed(std::string_view text)
+{
+    size_t begin = text.find_first_not_of(BLANKS);
+    if (begin == std::string_view::npos) return {};
+    return text.substr(begin, text.find_last_not_of(BLANKS) - begin + 1);
+}
+
+}  // namespace sahl

@@ -1,0 +1,39 @@
+// The lines of OBJ and MTL files: a keyword and its words.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace sahl {
+
+/// One line of text, without comment.
+struct Statement {
+    std::string_view keyword;
+    std::string_view rest;  ///< behind the keyword, trimmed
+    size_t line = 0;        ///< from 1
+};
+
+/// Makes every line end in one '\n', joins lines that end in a backslash (keeping later line
+/// numbers right) and drops a byte order mark. Throws badInput naming `file` and line when the
+/// text holds a zero byte: it is binary or UTF-16.
+std::string normaliseLines(const std::string& text, const std::string& file);
+
+/// Walks over the statements of a text from normaliseLines, leaving out empty lines and comments.
+class StatementReader {
+public:
+    explicit StatementReader(std::string_view text) : rest_(text) {}
+
+    /// False at the end of the text.
+    bool next(Statement& statement);
+
+private:
+    std::string_view rest_;
+    size_t line_ = 0;
+};
+
+/// Takes the next word off the front of `rest`; empty at the end.
+std::string_view takeWord(std::string_view& rest);
+
+std::string_view trimmed(std::string_view text);
+
+}  // namespace sahl
