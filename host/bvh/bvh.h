@@ -18,10 +18,11 @@ enum class BvhBuild {
 struct BvhStatistics {
     uint64_t innerNodes = 0;
     uint64_t leaves = 0;
-    uint32_t depth = 0;       ///< inner nodes on the longest way from the root to a leaf
-    uint32_t largestLeaf = 0; ///< triangles
-    double sahCost = 0;       ///< expected box and triangle tests of a random ray that hits the root's box
-    double seconds = 0;       ///< to build
+    uint32_t depth = 0;        ///< inner nodes on the longest way from the root to a leaf
+    uint32_t largestLeaf = 0;  ///< triangles
+    double sahCost = 0;        ///< expected box and triangle tests of a random ray that hits the
+                               ///< root's box; 0 when that has no area
+    double seconds = 0;        ///< to build
     BvhBuild build = BvhBuild::sweep;
 };
 
