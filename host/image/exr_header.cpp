@@ -192,18 +192,15 @@ void checkLength(const ImageFile& file, const Attributes& attributes, bool tiled
     }
 }
 
-void warnAboutColour(const ImageFile& file, const Attributes& attributes)
+bool isRec709(const ImageFile& file, const Attributes& attributes)
 {
     auto found = attributes.find("chromaticities");
-    if (found == attributes.end() || found->second.value.size() != 32) return;
+    if (found == attributes.end() || found->second.value.size() != 32) return true;
     constexpr float rec709[8] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
     FieldReader reader = {file, found->second.value};
     bool same = true;
     for (float expected : rec709) same = std::fabs(reader.f32() - expected) < 0.002f && same;
-    if (!same) {
-        warn(fmt::format("{}: its primaries are not Rec. 709; its values are used as if they were",
-                         file.name));
-    }
+    return same;
 }
 
 }  // namespace
@@ -218,7 +215,7 @@ ExrHeader checkExrHeader(const ImageFile& file)
     if (auto type = attributes.find("type"); type != attributes.end()) {
         std::string text(type->second.value.begin(), type->second.value.end());
         if (text != "scanlineimage" && text != "tiledimage") {
-            throw badInput("{}: EXR of type \"{:?<.20}\" is not read", file.name, text);
+            throw badInput("{}: EXR of type {} is not read", file.name, printable(text));
         }
     }
 
@@ -235,12 +232,8 @@ ExrHeader checkExrHeader(const ImageFile& file)
     header.height = static_cast<uint32_t>(height);
     header.grey = checkChannels(file, require(file, attributes, "channels", "chlist"));
     checkLength(file, attributes, (version & FLAG_TILED) != 0, reader.pos, header);
-    warnAboutColour(file, attributes);
-    if (data != display) {
-        warn(
-            fmt::format("{}: only its data window of {} x {} pixels is read, not the displayed one",
-                        file.name, width, height));
-    }
+    header.rec709 = isRec709(file, attributes);
+    header.cropped = data != display;
     return header;
 }
 

@@ -9,13 +9,14 @@ namespace sahl {
 struct ExrHeader {
     int32_t minX = 0, minY = 0;      // data window, top left [pixels]
     uint32_t width = 0, height = 0;  // of the data window
+    bool rec709 = true;              // no other primaries are named
+    bool cropped = false;            // the data window is not the displayed one
     bool grey = false;               // Y instead of R, G, B
 };
 
 /// Throws badInput unless the file is a single-part picture (scanlines or tiles, any compression)
 /// with channels R, G, B or Y at full resolution, within the limits of readImage, and long enough
-/// to hold its own table of chunks. Warns where the pixels are less than the displayed picture or
-/// not in Rec. 709.
+/// to hold its own table of chunks.
 ExrHeader checkExrHeader(const ImageFile& file);
 
 }  // namespace sahl

@@ -20,10 +20,7 @@ namespace {
 
 class MemoryInput : public Imf::IStream {
 public:
-    explicit MemoryInput(const ImageFile& file)
-        : Imf::IStream(file.name.c_str()), bytes_(file.bytes)
-    {
-    }
+    explicit MemoryInput(const ImageFile& file) : Imf::IStream(""), bytes_(file.bytes) {}
 
     bool read(char* target, int count) override
     {
@@ -82,6 +79,18 @@ IsolatedLimits limitsFor(const ImageFile& file, size_t pixelCount)
     return limits;
 }
 
+void warnAboutMeaning(const ImageFile& file, const ExrHeader& header)
+{
+    if (!header.rec709) {
+        warn(fmt::format("{}: its primaries are not Rec. 709; its values are used as if they were",
+                         file.name));
+    }
+    if (header.cropped) {
+        warn(fmt::format("{}: its data window of {} x {} pixels is read, not the displayed one",
+                         file.name, header.width, header.height));
+    }
+}
+
 }  // namespace
 
 Image decodeExr(const ImageFile& file)
@@ -94,6 +103,7 @@ Image decodeExr(const ImageFile& file)
     const std::string failure =
         runIsolated(limitsFor(file, image.rgb.size() / 3), [&] { decode(file, header, pixels); });
     if (!failure.empty()) throw badInput("{}: {}", file.name, failure);
+    warnAboutMeaning(file, header);
     std::copy(pixels.begin(), pixels.end(), image.rgb.begin());
     return image;
 }

@@ -75,7 +75,8 @@ void parseExposure(const ImageFile& file, std::string_view value, HdrHeader& hea
 {
     double exposure = 0;
     if (!parseNumber(value, exposure) || !std::isfinite(exposure) || exposure <= 0) {
-        throw badInput("{}: EXPOSURE={:.20} must be a finite number above 0", file.name, value);
+        throw badInput("{}: EXPOSURE is {}; it must be a finite number above 0", file.name,
+                       printable(value));
     }
     header.exposure *= exposure;  // it may be given again by each program on the way
     if (!std::isfinite(header.exposure) || header.exposure <= 0) {
@@ -98,13 +99,13 @@ void parseVariables(Cursor& cursor, HdrHeader& header)
             hasFormat = true;
             header.xyz = value == "32-bit_rle_xyze";
             if (!header.xyz && value != "32-bit_rle_rgbe") {
-                throw badInput("{}: FORMAT={:.40} is not known; 32-bit_rle_rgbe and _xyze are read",
-                               file.name, value);
+                throw badInput("{}: FORMAT {} is not known; 32-bit_rle_rgbe and _xyze are read",
+                               file.name, printable(value));
             }
         } else if (name == "EXPOSURE") {
             parseExposure(file, value, header);
         } else if (name == "COLORCORR") {
-            warn(fmt::format("{}: COLORCORR={:.40} is not undone", file.name, value));
+            warn(fmt::format("{}: COLORCORR {} is not undone", file.name, printable(value)));
         }
     }
     if (!hasFormat) warn(fmt::format("{}: has no FORMAT line; taken as RGBE", file.name));
@@ -127,8 +128,8 @@ void parseResolution(const ImageFile& file, std::string_view line, HdrHeader& he
     int x = header.columns ? 0 : 1;
     good = good && axis[x][1] == 'X' && axis[1 - x][1] == 'Y' && trimmed(rest).empty();
     if (!good) {
-        throw badInput("{}: resolution line \"{:.40}\" is not of the kind \"-Y 480 +X 640\"",
-                       file.name, line);
+        throw badInput("{}: resolution line {} is not of the kind \"-Y 480 +X 640\"", file.name,
+                       printable(line));
     }
     header.flipX = axis[x][0] == '-';
     header.flipY = axis[1 - x][0] == '+';

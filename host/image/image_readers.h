@@ -4,6 +4,7 @@
 #include "image/image.h"
 
 #include <span>
+#include <string_view>
 
 namespace sahl {
 
@@ -12,6 +13,10 @@ struct ImageFile {
     std::string name;
     std::span<const uint8_t> bytes;
 };
+
+/// A piece of the file for a message: quotes around at most 40 characters, '?' for what would not
+/// print.
+std::string printable(std::string_view text);
 
 /// Throws badInput unless a picture of this size is within the limits of readImage and believable
 /// for a file of this length: no format of ours packs large pictures 2000 times smaller.

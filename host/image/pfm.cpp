@@ -43,7 +43,7 @@ Number parseField(const ImageFile& file, std::string_view word, std::string_view
     Number value{};
     auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (word.empty() || error != std::errc{} || end != word.data() + word.size()) {
-        throw badInput("{}: PFM header: {} is not a number: \"{:?<.20}\"", file.name, what, word);
+        throw badInput("{}: PFM header: {} is not a number: {}", file.name, what, printable(word));
     }
     return value;
 }

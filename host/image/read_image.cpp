@@ -36,6 +36,13 @@ std::string_view foreignFormat(std::span<const uint8_t> bytes)
 
 }  // namespace
 
+std::string printable(std::string_view text)
+{
+    std::string result = "\"";
+    for (char c : text.substr(0, 40)) result += c >= ' ' && c <= '~' ? c : '?';
+    return result + (text.size() > 40 ? "...\"" : "\"");
+}
+
 void requireImageSize(const ImageFile& file, int64_t width, int64_t height)
 {
     if (width <= 0 || height <= 0) {
