@@ -21,12 +21,62 @@ function(sahl_library name)
     sahl_compile_options(${name})
 endfunction()
 
-# sahl_test(name SOURCES a.cpp ... LINKS other ...): a GoogleTest program, one ctest entry a test.
+# Manifests of the drivers that device tests run on: Mesa's lavapipe, and SwiftShader once
+# `tools/drivers swiftshader` has fetched it. Looked for at every configuration unless given.
+set(SAHL_TEST_DRIVERS "" CACHE STRING "manifests of the Vulkan drivers for device tests; empty: look for them")
+function(sahl_find_test_drivers output)
+    set(drivers ${SAHL_TEST_DRIVERS})
+    if(NOT drivers)
+        file(GLOB drivers /usr/share/vulkan/icd.d/lvp_icd*.json)
+        file(GLOB_RECURSE swiftshader ${SAHL_ROOT}/.drivers/*/vk_swiftshader_icd.json)
+        list(APPEND drivers ${swiftshader})
+    endif()
+    set(${output} ${drivers} PARENT_SCOPE)
+endfunction()
+
+# sahl_test(name [LONG] SOURCES a.cpp ... LINKS other ...): a GoogleTest program, one ctest entry a
+# test, labelled with the folder of tests/ it is in.
+#   LONG  tests of suites called Long... take minutes: they get the label FOLDER-long
 function(sahl_test name)
-    cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
-    add_executable(${name} ${ARG_SOURCES})
+    cmake_parse_arguments(ARG "LONG" "" "SOURCES;LINKS" ${ARGN})
+    sahl_test_program(${name} "${ARG_SOURCES}" "${ARG_LINKS}")
+    sahl_discover(${name} "${ARG_LONG}" "")
+endfunction()
+
+# sahl_device_test(name ...), arguments as above: needs a Vulkan device, so every test runs once a
+# driver, under the names lavapipe.* and swiftshader.*. Where no such driver is found the tests run on
+# what the loader offers, and fail if that is nothing.
+function(sahl_device_test name)
+    cmake_parse_arguments(ARG "LONG" "" "SOURCES;LINKS" ${ARGN})
+    sahl_test_program(${name} "${ARG_SOURCES}" "${ARG_LINKS}")
+    sahl_find_test_drivers(drivers)
+    foreach(manifest ${drivers})
+        set(driver lavapipe)
+        if(manifest MATCHES "swiftshader")
+            set(driver swiftshader)
+        endif()
+        sahl_discover(${name} "${ARG_LONG}" "${driver}." ENVIRONMENT VK_DRIVER_FILES=${manifest})
+    endforeach()
+    if(NOT drivers)
+        sahl_discover(${name} "${ARG_LONG}" "")
+    endif()
+endfunction()
+
+function(sahl_test_program name sources links)
+    add_executable(${name} ${sources})
     target_include_directories(${name} PRIVATE ${SAHL_ROOT}/tests)
-    target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest GTest::gtest_main)
+    target_link_libraries(${name} PRIVATE ${links} GTest::gtest GTest::gtest_main)
     sahl_compile_options(${name})
-    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+endfunction()
+
+function(sahl_discover name long prefix)
+    get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+    set(filter)
+    if(long)
+        gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_PREFIX "${prefix}" TEST_FILTER "Long*"
+            TEST_LIST ${name}_${prefix}long PROPERTIES TIMEOUT 3600 LABELS ${folder}-long ${ARGN})
+        set(filter TEST_FILTER "-Long*")
+    endif()
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_PREFIX "${prefix}" ${filter}
+        TEST_LIST ${name}_${prefix}tests PROPERTIES TIMEOUT 900 LABELS ${folder} ${ARGN})
 endfunction()
