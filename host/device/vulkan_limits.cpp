@@ -1,10 +1,7 @@
 #include "device/vulkan_limits.h"
 
-#include "shared/bindings.h"
-
 #include <algorithm>
 #include <numeric>
-#include <optional>
 
 namespace sahl {
 
@@ -33,7 +30,8 @@ std::string whyNoStorageBuffers(const PhysicalDevice& device)
 }
 
 /// Empty, or the first array that is too large for one binding.
-std::string whyTooLarge(const SceneBytes& bytes, uint64_t unit, uint64_t limit, const char* unitName)
+std::string whyTooLarge(const SceneBytes& bytes, uint64_t unit, uint64_t limit,
+                        const char* unitName)
 {
     for (uint32_t i = 0; i < SCENE_BUFFER_COUNT; i++)
         if (bytes[i] / unit > limit)
@@ -104,8 +102,9 @@ uint32_t chooseStackSize(uint32_t treeDepth)
 {
     for (uint32_t size : {16u, 24u, 32u, 48u, MAX_STACK_SIZE})
         if (size >= treeDepth) return size;
-    throw badInput("the scene's tree is {} levels deep, at most {} can be traversed; build it again",
-                   treeDepth, MAX_STACK_SIZE);
+    throw badInput(
+        "the scene's tree is {} levels deep, at most {} can be traversed; build it again",
+        treeDepth, MAX_STACK_SIZE);
 }
 
 uint32_t defaultStepBudget(const PhysicalDevice& device)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "device/device.h"
+#include "shared/bindings.h"
 #include "vulkan/physical_device.h"
 
 #include <array>

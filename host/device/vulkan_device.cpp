@@ -1,0 +1,347 @@
+// The Device that runs the path tracing kernels on Vulkan.
+#include "device/device.h"
+#include "device/vulkan_limits.h"
+#include "device/vulkan_scene.h"
+#include "kernels/spirv.h"
+#include "shared/bindings.h"
+#include "vulkan/pipeline.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace sahl {
+
+namespace {
+
+constexpr uint32_t MIN_STEP_BUDGET = 64;     // a driver that cuts fewer steps than that is broken
+constexpr uint32_t MAX_CUT_ROUNDS = 64;      // at the smallest budget, without a finished sample
+constexpr double SUBMISSION_SECONDS = 0.25;  // aimed at: watchdogs of real GPUs bite after 2 s
+
+double secondsSince(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// What the blocks of a tile say after a round of dispatches.
+struct TileState {
+    uint32_t samplesMissing = 0;  ///< of the pixel that lacks most
+    uint64_t samplesDone = 0;     ///< of all pixels
+    uint32_t faults = 0;          ///< FAULT_* of any pixel
+};
+
+TileState inspect(std::span<const PixelBlock> blocks, uint32_t sampleCount)
+{
+    TileState state;
+    for (const PixelBlock& block : blocks) {
+        uint32_t done = std::min(block.samplesDone, sampleCount);
+        state.samplesMissing = std::max(state.samplesMissing, sampleCount - done);
+        state.samplesDone += done;
+        state.faults |= block.faults;
+    }
+    return state;
+}
+
+std::string tileName(const TileRequest& tile)
+{
+    return fmt::format("render tile {}x{} at {},{}, samples {} to {}", tile.width, tile.height,
+                       tile.x, tile.y, tile.firstSample,
+                       uint64_t{tile.firstSample} + tile.sampleCount - 1);
+}
+
+class VulkanDevice final : public Device {
+public:
+    VulkanDevice(std::unique_ptr<Context> context, const DeviceOptions& options);
+
+    DeviceInfo info() const override;
+    void setScene(const DeviceScene& scene) override;
+    void render(const TileRequest& tile, std::span<PixelBlock> blocks) override;
+    uint32_t maxTilePixels() const override { return tilePixelLimit(context_->physical); }
+    DeviceStatistics statistics() const override { return statistics_; }
+
+private:
+    void preparePipeline(bool texel, uint32_t stackSize);
+    void prepareTileBuffers(size_t pixels);
+    void bindAll();
+    void requireTile(const TileRequest& tile, size_t blockCount) const;
+    void runRound(const TileRequest& tile, uint32_t dispatches, bool begin,
+                  std::span<PixelBlock> blocks);
+    void submit(const TileRequest& tile, uint32_t dispatches, bool begin, bool end);
+    void finishTile(const TileRequest& tile, std::span<PixelBlock> blocks);
+    void handleFaults(const TileRequest& tile, uint32_t faults);
+
+    std::unique_ptr<Context> context_;  // stands first: everything below is made from it
+    DeviceOptions options_;
+    std::array<uint32_t, 2> group_;
+    uint32_t minStepBudget_;
+    ComputePipeline pipeline_;
+    bool pipelineTexel_ = false;
+    uint32_t pipelineStack_ = 0;  // 0: no pipeline yet
+    std::unique_ptr<VulkanScene> scene_;
+    Buffer pixels_, suspended_;   // as large as the largest tile so far
+    bool bound_ = false;          // the descriptor set holds the buffers above
+    double secondsPerPixel_ = 0;  // of one dispatch, as last measured; 0 before the first
+    uint32_t cutRounds_ = 0;      // in a row, at the smallest step budget
+    DeviceStatistics statistics_;
+};
+
+VulkanDevice::VulkanDevice(std::unique_ptr<Context> context, const DeviceOptions& options)
+    : context_(std::move(context)),
+      options_(options),
+      group_(chooseGroupShape(context_->physical, options.groupWidth, options.groupHeight))
+{
+    statistics_.stepBudget =
+        options.stepBudget > 0 ? options.stepBudget : defaultStepBudget(context_->physical);
+    minStepBudget_ = std::min(MIN_STEP_BUDGET, statistics_.stepBudget);
+}
+
+DeviceInfo VulkanDevice::info() const
+{
+    const PhysicalDevice& device = context_->physical;
+    return {device.name, device.driver, device.kind};
+}
+
+void VulkanDevice::setScene(const DeviceScene& scene)
+{
+    auto start = std::chrono::steady_clock::now();
+    scene_.reset();  // first, so that there never need be room for two scenes
+    bound_ = false;
+    uint32_t stackSize = chooseStackSize(scene.treeDepth);
+    auto uploaded = std::make_unique<VulkanScene>(uploadScene(*context_, scene, options_.buffers));
+    preparePipeline(uploaded->texel, stackSize);
+    scene_ = std::move(uploaded);
+    statistics_.sceneBytes = scene_->bytes;
+    statistics_.texelBuffers = scene_->texel;
+    statistics_.uploadSeconds += secondsSince(start);
+}
+
+void VulkanDevice::preparePipeline(bool texel, uint32_t stackSize)
+{
+    if (pipelineStack_ == stackSize && pipelineTexel_ == texel) return;
+    PipelineRequest request;
+    request.name = texel ? "path_texel" : "path_storage";
+    request.spirv = kernelSpirv(request.name);
+    request.bindings.assign(SCENE_BUFFER_COUNT, texel ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+                                                      : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+    request.bindings.resize(BINDING_COUNT, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+    request.bindings[BINDING_FRAME] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    request.pushConstantBytes = sizeof(Dispatch);
+    request.specialisation.resize(4);
+    request.specialisation[SPEC_GROUP_WIDTH] = group_[0];
+    request.specialisation[SPEC_GROUP_HEIGHT] = group_[1];
+    request.specialisation[SPEC_STACK_SIZE] = stackSize;
+    request.specialisation[SPEC_ORDER] = options_.traversalOrder;
+    pipelineStack_ = 0;
+    pipeline_ = createComputePipeline(*context_, request);
+    pipelineStack_ = stackSize;
+    pipelineTexel_ = texel;
+}
+
+void VulkanDevice::prepareTileBuffers(size_t pixels)
+{
+    uint64_t pixelBytes = pixels * sizeof(PixelBlock);
+    uint64_t suspendedBytes = pixels * sizeof(SuspendedPath);
+    if (pixels_.bytes >= pixelBytes && suspended_.bytes >= suspendedBytes) return;
+    bound_ = false;
+    pixels_ = {};
+    suspended_ = {};
+    VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    pixels_ = createBuffer(*context_, {"pixels", pixelBytes, usage, HostUse::readBack});
+    suspended_ = createBuffer(*context_, {"suspended", suspendedBytes, usage, HostUse::none});
+}
+
+void VulkanDevice::bindAll()
+{
+    std::array<const Buffer*, BINDING_COUNT> buffers = {};
+    for (uint32_t i = 0; i < SCENE_BUFFER_COUNT; i++) buffers[i] = &scene_->arrays[i];
+    buffers[BINDING_FRAME] = &scene_->frame;
+    buffers[BINDING_PIXELS] = &pixels_;
+    buffers[BINDING_SUSPENDED] = &suspended_;
+    bindBuffers(*context_, pipeline_, buffers);
+    bound_ = true;
+}
+
+void VulkanDevice::requireTile(const TileRequest& tile, size_t blockCount) const
+{
+    uint64_t pixels = uint64_t{tile.width} * tile.height;
+    auto allowed = context_->physical.properties.limits.maxComputeWorkGroupCount;
+    bool groupsFit = (tile.width + group_[0] - 1) / group_[0] <= allowed[0] &&
+                     (tile.height + group_[1] - 1) / group_[1] <= allowed[1];
+    bool samplesFit = tile.sampleCount >= 1 && tile.sampleCount <= BLOCK_SIZE &&
+                      tile.firstSample % BLOCK_SIZE == 0;
+    if (!scene_ || pixels == 0 || pixels != blockCount || pixels > maxTilePixels() || !groupsFit ||
+        !samplesFit)
+        throw usageError("{}: not a tile that '{}' can render (scene set: {}, blocks: {}, most "
+                         "pixels: {}, workgroups of {}x{})",
+                         tileName(tile), context_->physical.name, scene_ != nullptr, blockCount,
+                         maxTilePixels(), group_[0], group_[1]);
+}
+
+void VulkanDevice::render(const TileRequest& tile, std::span<PixelBlock> blocks)
+{
+    auto start = std::chrono::steady_clock::now();
+    requireTile(tile, blocks.size());
+    prepareTileBuffers(blocks.size());
+    if (!bound_) bindAll();
+    runRound(tile, tile.sampleCount, true, blocks);
+    finishTile(tile, blocks);
+    statistics_.renderSeconds += secondsSince(start);
+}
+
+/// Dispatches until every pixel has all its samples: paths that ran out of steps go on, pixels in
+/// which a loop was cut go again with fewer steps.
+void VulkanDevice::finishTile(const TileRequest& tile, std::span<PixelBlock> blocks)
+{
+    TileState state = inspect(blocks, tile.sampleCount);
+    uint64_t idleSteps = 0;  // offered since the last sample was finished
+    cutRounds_ = 0;
+    while (state.samplesMissing > 0) {
+        if (state.faults != 0) handleFaults(tile, state.faults);
+        uint32_t dispatches = state.samplesMissing;
+        uint64_t before = state.samplesDone;
+        runRound(tile, dispatches, false, blocks);
+        statistics_.resumptions += dispatches;
+        state = inspect(blocks, tile.sampleCount);
+        if (state.samplesDone > before) cutRounds_ = 0;
+        bool progress = state.samplesDone > before || state.faults != 0;
+        idleSteps = progress ? 0 : idleSteps + uint64_t{dispatches} * statistics_.stepBudget;
+        if (idleSteps > scene_->stepsPerSample + statistics_.stepBudget)
+            throw Error(ErrorKind::deviceLost,
+                        fmt::format("{}: '{}' makes no progress: {} steps for each path and none "
+                                    "ended, though {} are enough for any; the driver does not "
+                                    "compute what it was given, try --device cpu",
+                                    tileName(tile), context_->physical.name, idleSteps,
+                                    scene_->stepsPerSample));
+    }
+}
+
+/// Counts a retry and halves the step budget. Throws deviceLost when that does not help any more.
+void VulkanDevice::handleFaults(const TileRequest& tile, uint32_t faults)
+{
+    if (faults & FAULT_STACK_OVERFLOW)
+        throw Error(ErrorKind::deviceLost,
+                    fmt::format("{}: on '{}' a traversal overflowed its stack of {} entries, which "
+                                "the tree's depth rules out; the driver does not compute what it "
+                                "was given, try --device cpu",
+                                tileName(tile), context_->physical.name, pipelineStack_));
+    statistics_.retries++;
+    if (statistics_.stepBudget > minStepBudget_) {
+        statistics_.stepBudget = std::max(statistics_.stepBudget / 2, minStepBudget_);
+        return;
+    }
+    if (++cutRounds_ > MAX_CUT_ROUNDS)
+        throw Error(ErrorKind::deviceLost,
+                    fmt::format("{}: '{}' ends loops before their end even at {} steps a dispatch, "
+                                "so nothing can be computed on it; try --device cpu",
+                                tileName(tile), context_->physical.name, statistics_.stepBudget));
+}
+
+/// Runs `dispatches` dispatches in submissions of about SUBMISSION_SECONDS and reads the blocks
+/// back. `begin`: the tile's blocks are cleared before.
+void VulkanDevice::runRound(const TileRequest& tile, uint32_t dispatches, bool begin,
+                            std::span<PixelBlock> blocks)
+{
+    auto pixels = static_cast<double>(blocks.size());
+    for (uint32_t done = 0; done < dispatches;) {
+        double fit = secondsPerPixel_ > 0 ? SUBMISSION_SECONDS / (secondsPerPixel_ * pixels) : 1;
+        auto count = static_cast<uint32_t>(std::clamp(fit, 1.0, double(dispatches - done)));
+        auto start = std::chrono::steady_clock::now();
+        submit(tile, count, begin && done == 0, done + count == dispatches);
+        secondsPerPixel_ = secondsSince(start) / (pixels * count);
+        done += count;
+    }
+    statistics_.dispatches += dispatches;
+    readBuffer(pixels_, std::as_writable_bytes(blocks));
+}
+
+void VulkanDevice::submit(const TileRequest& tile, uint32_t dispatches, bool begin, bool end)
+{
+    Dispatch job = {};
+    job.tileX = tile.x;
+    job.tileY = tile.y;
+    job.tileWidth = tile.width;
+    job.tileHeight = tile.height;
+    job.firstSample = tile.firstSample;
+    job.sampleCount = tile.sampleCount;
+    job.stepBudget = statistics_.stepBudget;
+    std::array<uint32_t, 3> groups = {(tile.width + group_[0] - 1) / group_[0],
+                                      (tile.height + group_[1] - 1) / group_[1], 1};
+    uint64_t bytes = uint64_t{tile.width} * tile.height * sizeof(PixelBlock);
+    runCommands(*context_, tileName(tile), [&](VkCommandBuffer commands) {
+        if (begin) {
+            vkCmdFillBuffer(commands, pixels_.handle.get(), 0, bytes, 0);
+            recordBarrier(commands, TRANSFER_WRITE, COMPUTE_USE);
+        }
+        for (uint32_t i = 0; i < dispatches; i++) {
+            if (i > 0) recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE);
+            recordDispatch(commands, pipeline_, std::as_bytes(std::span(&job, 1)), groups);
+        }
+        // Commands submitted later see only what a barrier made visible.
+        if (end)
+            recordReadBack(commands, pixels_, bytes);
+        else
+            recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE);
+    });
+}
+
+VulkanDeviceInfo describe(const PhysicalDevice& device)
+{
+    const VkPhysicalDeviceLimits& limits = device.properties.limits;
+    uint32_t version = device.properties.apiVersion;
+    VulkanDeviceInfo info;
+    info.index = device.index;
+    info.name = device.name;
+    info.driver = device.driver;
+    info.kind = device.kind;
+    info.uuid = device.uuid;
+    info.apiVersion = fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version),
+                                  VK_API_VERSION_MINOR(version), VK_API_VERSION_PATCH(version));
+    info.deviceMemory = mainHeapBytes(device);
+    info.maxStorageBufferBytes = limits.maxStorageBufferRange;
+    info.maxTexelBufferElements = limits.maxTexelBufferElements;
+    info.subgroupSize = device.subgroupSize;
+    info.maxGroupInvocations = limits.maxComputeWorkGroupInvocations;
+    info.unusable = whyUnusable(device);
+    return info;
+}
+
+}  // namespace
+
+std::vector<VulkanDeviceInfo> listVulkanDevices(std::string& whyNone)
+{
+    std::vector<VulkanDeviceInfo> infos;
+    whyNone.clear();
+    try {
+        std::shared_ptr<Instance> instance = openInstance(false);
+        for (const PhysicalDevice& device : physicalDevices(*instance))
+            infos.push_back(describe(device));
+        if (infos.empty())
+            whyNone = "no Vulkan device found: drivers are installed, and none of them finds its "
+                      "hardware; install a software one (Debian: mesa-vulkan-drivers) or use "
+                      "--device cpu";
+    } catch (const Error& error) {
+        if (error.kind != ErrorKind::noDevice) throw;
+        whyNone = error.what();
+    }
+    return infos;
+}
+
+std::unique_ptr<Device> makeVulkanDevice(uint32_t index, const DeviceOptions& options)
+{
+    std::shared_ptr<Instance> instance = openInstance(options.validation);
+    std::vector<PhysicalDevice> devices = physicalDevices(*instance);
+    if (index >= devices.size())
+        throw Error(ErrorKind::noDevice,
+                    fmt::format("there is no Vulkan device {}: {} found", index, devices.size()));
+    std::string why = whyUnusable(devices[index]);
+    if (!why.empty())
+        throw Error(ErrorKind::noDevice, fmt::format("device {}, '{}', cannot be used: {}", index,
+                                                     devices[index].name, why));
+    return std::make_unique<VulkanDevice>(openContext(instance, devices[index]), options);
+}
+
+uint64_t validationMessageCount()
+{
+    return vulkanMessageCount();
+}
+
+}  // namespace sahl

@@ -1,0 +1,74 @@
+#include "device/vulkan_scene.h"
+
+#include "device/vulkan_limits.h"
+#include "shared/bindings.h"
+
+namespace sahl {
+
+namespace {
+
+using SceneArrays = std::array<std::span<const std::byte>, SCENE_BUFFER_COUNT>;
+
+SceneArrays sceneArrays(const DeviceScene& scene)
+{
+    SceneArrays arrays;
+    arrays[BINDING_NODES] = std::as_bytes(scene.nodes);
+    arrays[BINDING_TRIANGLES] = std::as_bytes(scene.triangles);
+    arrays[BINDING_NORMALS] = std::as_bytes(scene.triangleNormals);
+    arrays[BINDING_MATERIALS] = std::as_bytes(scene.materials);
+    arrays[BINDING_LIGHTS] = std::as_bytes(scene.lights);
+    arrays[BINDING_PROBE] = std::as_bytes(scene.probeTexels);
+    return arrays;
+}
+
+// A ray visits each node and each triangle at most once, and a path has two rays a bounce.
+uint64_t mostStepsPerSample(const DeviceScene& scene)
+{
+    uint64_t rays = 2 * (uint64_t{scene.frame.maxBounces} + 2);
+    return rays * (2 * uint64_t{scene.nodes.size()} + scene.triangles.size() + 16);
+}
+
+void requireMemory(const PhysicalDevice& device, uint64_t bytes)
+{
+    uint64_t heap = mainHeapBytes(device);
+    if (bytes > heap)
+        throw Error(ErrorKind::deviceLost,
+                    fmt::format("the scene needs {} on '{}', which has {} of memory; try a smaller "
+                                "scene or --device cpu",
+                                bytesText(bytes), device.name, bytesText(heap)));
+}
+
+Buffer uploadArray(Context& context, const std::string& name, VkBufferUsageFlags usage,
+                   std::span<const std::byte> data)
+{
+    Buffer buffer = createBuffer(context, {name, data.size(), usage, HostUse::upload});
+    writeBuffer(context, buffer, data);
+    return buffer;
+}
+
+}  // namespace
+
+VulkanScene uploadScene(Context& context, const DeviceScene& scene, DeviceOptions::Buffers buffers)
+{
+    SceneArrays arrays = sceneArrays(scene);
+    SceneBytes bytes = {};
+    VulkanScene result;
+    result.bytes = sizeof(Frame);
+    for (uint32_t i = 0; i < SCENE_BUFFER_COUNT; i++) {
+        bytes[i] = arrays[i].size();
+        result.bytes += bytes[i];
+    }
+    result.texel = chooseTexelBuffers(context.physical, bytes, buffers);
+    result.stepsPerSample = mostStepsPerSample(scene);
+    requireMemory(context.physical, result.bytes);
+
+    VkBufferUsageFlags usage = result.texel ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT
+                                            : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    for (uint32_t i = 0; i < SCENE_BUFFER_COUNT; i++)
+        result.arrays.push_back(uploadArray(context, sceneArrayName(i), usage, arrays[i]));
+    result.frame = uploadArray(context, "frame", VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                               std::as_bytes(std::span(&scene.frame, 1)));
+    return result;
+}
+
+}  // namespace sahl

@@ -1,0 +1,21 @@
+// A scene's arrays as buffers on a Vulkan device.
+#pragma once
+
+#include "device/device.h"
+#include "vulkan/buffer.h"
+
+namespace sahl {
+
+struct VulkanScene {
+    std::vector<Buffer> arrays;  ///< SCENE_BUFFER_COUNT of them, by binding
+    Buffer frame;
+    bool texel = false;           ///< texel buffers rather than storage buffers
+    uint64_t bytes = 0;           ///< of all arrays and the frame
+    uint64_t stepsPerSample = 0;  ///< traversal steps that no sample can need more of
+};
+
+/// Copies the scene to the device. Throws noDevice when one of its arrays exceeds a limit of the
+/// device, deviceLost when all together exceed its memory; nothing is allocated before both checks.
+VulkanScene uploadScene(Context& context, const DeviceScene& scene, DeviceOptions::Buffers buffers);
+
+}  // namespace sahl

@@ -1,0 +1,53 @@
+// A device opened for compute: one queue, one command buffer at a time, one fence.
+#pragma once
+
+#include "vulkan/physical_device.h"
+
+#include <functional>
+
+namespace sahl {
+
+/// Everything made from a context (buffers, pipelines) must be gone before it.
+struct Context {
+    std::shared_ptr<Instance> instance;
+    PhysicalDevice physical;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    VkCommandPool pool = VK_NULL_HANDLE;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    VkFence fence = VK_NULL_HANDLE;
+    double timeoutSeconds = 0;   ///< that one submission may take
+    bool notResponding = false;  ///< a submission never ended: nothing is destroyed any more
+    uint64_t heapBytesInUse[VK_MAX_MEMORY_HEAPS] = {};  ///< allocated by this context
+
+    Context() = default;
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+    ~Context();
+};
+
+/// Opens one of physicalDevices(*instance). Throws noDevice, or deviceLost when memory is short.
+std::unique_ptr<Context> openContext(std::shared_ptr<Instance> instance,
+                                     const PhysicalDevice& physical);
+
+/// Records commands by `record`, submits them and waits until they are done. Throws deviceLost when
+/// the device is lost or does not answer within context.timeoutSeconds. `what` names the work.
+void runCommands(Context& context, const std::string& what,
+                 const std::function<void(VkCommandBuffer)>& record);
+
+/// Who reads or writes on one side of a barrier.
+struct Access {
+    VkPipelineStageFlags stage;
+    VkAccessFlags access;
+};
+constexpr Access COMPUTE_WRITE = {VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT};
+constexpr Access COMPUTE_USE = {VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                                VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT};
+constexpr Access TRANSFER_READ = {VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT};
+constexpr Access TRANSFER_WRITE = {VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT};
+constexpr Access HOST_READ = {VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT};
+
+/// What came `before` is finished and visible to what comes `after`, for all memory.
+void recordBarrier(VkCommandBuffer commands, Access before, Access after);
+
+}  // namespace sahl
