@@ -23,3 +23,16 @@ function(sahl_spirv output)
         DEPFILE ${output}.d
         COMMENT "SPIR-V ${name}" VERBATIM)
 endfunction()
+
+# sahl_embed(output.cpp FUNCTION kernelSpirv MODULES name ...): C++ source with the modules name.spv of
+# the current binary folder, behind std::span<const uint32_t> sahl::FUNCTION(std::string_view name).
+function(sahl_embed output)
+    cmake_parse_arguments(ARG "" "FUNCTION" "MODULES" ${ARGN})
+    foreach(module ${ARG_MODULES})
+        list(APPEND files ${CMAKE_CURRENT_BINARY_DIR}/${module}.spv)
+        list(APPEND entries ${module}=${CMAKE_CURRENT_BINARY_DIR}/${module}.spv)
+    endforeach()
+    add_custom_command(OUTPUT ${output}
+        COMMAND sahl_shader_step embed ${output} ${ARG_FUNCTION} ${entries}
+        DEPENDS ${files} sahl_shader_step COMMENT "Embedding ${ARG_MODULES}" VERBATIM)
+endfunction()

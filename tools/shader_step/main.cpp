@@ -1,4 +1,4 @@
-// Build step for shaders: `lint FILE...`, `exact IN.spv OUT.spv`, `embed OUT.cpp NAME=FILE.spv...`.
+// Build step for shaders: `lint FILE...`, `exact IN.spv OUT.spv`, `embed OUT.cpp FUNCTION NAME=FILE.spv...`.
 
 #include "lint.h"
 #include "spirv_step.h"
@@ -55,11 +55,12 @@ int makeExact(const std::string& input, const std::string& output)
     return file.good() ? 0 : 1;
 }
 
-/// Writes a C++ file that defines sahl::kernelSpirv (kernels/spirv.h).
-int embed(const std::string& output, const std::vector<std::string>& modules)
+/// Writes a C++ file that defines sahl::FUNCTION(name), which gives the words of the module so named.
+int embed(const std::string& output, const std::string& function, const std::vector<std::string>& modules)
 {
     std::ofstream file(output);
-    file << "#include \"kernels/spirv.h\"\n\n#include <stdexcept>\n\nnamespace sahl {\n\nnamespace {\n";
+    file << "#include <cstdint>\n#include <span>\n#include <stdexcept>\n#include <string>\n\nnamespace sahl {\n\n"
+         << "std::span<const uint32_t> " << function << "(std::string_view name);\n\nnamespace {\n";
     std::string chooser;
     for (const auto& entry : modules) {
         size_t equals = entry.find('=');
@@ -72,7 +73,7 @@ int embed(const std::string& output, const std::vector<std::string>& modules)
         file << "\n};\n";
         chooser += fmt::format("    if (name == \"{0}\") return {0};\n", name);
     }
-    file << "}  // namespace\n\nstd::span<const uint32_t> kernelSpirv(std::string_view name)\n{\n"
+    file << "}  // namespace\n\nstd::span<const uint32_t> " << function << "(std::string_view name)\n{\n"
          << chooser << "    throw std::logic_error(\"no kernel \" + std::string(name));\n}\n\n}  // namespace sahl\n";
     return file.good() ? 0 : 1;
 }
@@ -88,9 +89,9 @@ int main(int argc, char** argv)
             std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
             if (verb == "lint") return lint(rest);
             if (verb == "exact" && rest.size() == 2) return makeExact(rest[0], rest[1]);
-            if (verb == "embed") return embed(rest[0], {rest.begin() + 1, rest.end()});
+            if (verb == "embed" && rest.size() >= 2) return embed(rest[0], rest[1], {rest.begin() + 2, rest.end()});
         }
-        std::cerr << "usage: shader_step lint FILE... | exact IN OUT | embed OUT.cpp NAME=FILE...\n";
+        std::cerr << "usage: shader_step lint FILE... | exact IN OUT | embed OUT.cpp FUNCTION NAME=FILE...\n";
         return 2;
     } catch (const std::exception& error) {
         std::cerr << "shader_step: " << error.what() << "\n";

@@ -1,0 +1,157 @@
+// The film is a function of the scene and the sample counts alone: whatever else changes, no bit does.
+
+#include "shared/bindings.h"
+#include "support/device_test.h"
+#include "support/render_scenes.h"
+
+namespace sahl::testing {
+namespace {
+
+constexpr uint32_t WIDTH = 96, HEIGHT = 64, SPP = 16;
+
+class SameBits : public DeviceTest {
+protected:
+    static const PreparedScene& scene()
+    {
+        static const PreparedScene prepared =
+            prepareScene(builtInScene(smallPicture(WIDTH, HEIGHT, SPP)), BvhBuild::sweep, 2);
+        return prepared;
+    }
+
+    static const Film& reference()
+    {
+        static const Film film = renderFilm(*makeCpuDevice({}), scene());
+        return film;
+    }
+
+    static Film onDevice(const DeviceOptions& options, uint32_t tileSize = 0)
+    {
+        return renderFilm(*openFirstDevice(options), scene(), 0, SPP, tileSize);
+    }
+};
+
+TEST_F(SameBits, onTheDeviceAndTheReference)
+{
+    EXPECT_TRUE(onDevice({}) == reference());
+    EXPECT_GT(reference().counters.shadowRays, 0u);
+    EXPECT_GT(reference().counters.indirectRays, reference().counters.cameraRays / 4);
+    EXPECT_EQ(reference().counters.badSamples, 0u);
+}
+
+TEST_F(SameBits, forOneAndManyThreads)
+{
+    for (unsigned threads : {1u, 2u, 5u}) {
+        DeviceOptions options;
+        options.threads = threads;
+        EXPECT_TRUE(renderFilm(*makeCpuDevice(options), scene()) == reference()) << threads;
+    }
+}
+
+TEST_F(SameBits, forEveryTileSize)
+{
+    for (uint32_t tile : {7u, 16u, 64u, 0u}) {
+        EXPECT_TRUE(onDevice({}, tile) == reference()) << tile;
+        EXPECT_TRUE(renderFilm(*makeCpuDevice({}), scene(), 0, SPP, tile) == reference()) << tile;
+    }
+}
+
+TEST_F(SameBits, forEveryWorkgroupShape)
+{
+    for (auto [width, height] : {std::pair{8u, 8u}, {32u, 4u}, {1u, 1u}, {5u, 3u}}) {
+        DeviceOptions options;
+        options.groupWidth = width;
+        options.groupHeight = height;
+        EXPECT_TRUE(onDevice(options) == reference()) << width << "x" << height;
+    }
+}
+
+TEST_F(SameBits, throughStorageBuffersAndTexelBuffers)
+{
+    DeviceOptions options;
+    options.buffers = DeviceOptions::Buffers::storage;
+    EXPECT_TRUE(onDevice(options) == reference());
+    options.buffers = DeviceOptions::Buffers::texel;
+    EXPECT_TRUE(onDevice(options) == reference());
+}
+
+/// The film without the work that was counted: what another tree may not change.
+void expectSameLight(const Film& a, const Film& b)
+{
+    EXPECT_TRUE(a.half[0] == b.half[0]);
+    EXPECT_TRUE(a.half[1] == b.half[1]);
+    EXPECT_EQ(a.digest, b.digest);
+}
+
+TEST_F(SameBits, forSweepAndBinnedTrees)
+{
+    PreparedScene binned = prepareScene(builtInScene(smallPicture(WIDTH, HEIGHT, SPP)), BvhBuild::binned, 2);
+    Film cpu = renderFilm(*makeCpuDevice({}), binned);
+    expectSameLight(cpu, reference());
+    EXPECT_TRUE(renderFilm(*openFirstDevice(), binned) == cpu);
+}
+
+TEST_F(SameBits, forEveryOrderOfTraversal)
+{
+    for (uint32_t order : {ORDER_LEFT_FIRST, ORDER_RIGHT_FIRST}) {
+        DeviceOptions options;
+        options.traversalOrder = order;
+        Film cpu = renderFilm(*makeCpuDevice(options), scene());
+        expectSameLight(cpu, reference());
+        EXPECT_TRUE(onDevice(options) == cpu);
+    }
+}
+
+TEST_F(SameBits, inOneGoAndMergedFromParts)
+{
+    auto device = openFirstDevice();
+    Film whole = renderFilm(*device, scene(), 0, 64);
+    Film first = renderFilm(*device, scene(), 0, 32);
+    Film second = renderFilm(*device, scene(), 32, 32);
+    Film merged = first;
+    merged.merge(second);
+    EXPECT_TRUE(merged == whole);
+    second.merge(first);
+    EXPECT_TRUE(second == whole);
+}
+
+TEST_F(SameBits, withAPartialBlock)
+{
+    auto device = openFirstDevice();
+    auto cpu = makeCpuDevice({});
+    for (uint32_t spp : {1u, 3u, 13u}) {
+        EXPECT_TRUE(renderFilm(*device, scene(), 0, spp) == renderFilm(*cpu, scene(), 0, spp)) << spp;
+    }
+}
+
+TEST_F(SameBits, whenPathsRunOutOfStepsAndGoOn)
+{
+    DeviceOptions options;
+    options.stepBudget = 37;
+    auto device = openFirstDevice(options);
+    EXPECT_TRUE(renderFilm(*device, scene()) == reference());
+    EXPECT_GT(device->statistics().resumptions, 0u);
+}
+
+TEST_F(SameBits, whenTheDriverCutsLoops)
+{
+    // lavapipe 22.3 ends every loop after 65,535 iterations of a SIMD group, without a word. With an
+    // unlimited step budget, 4,000 bounces in a closed white box go far beyond that.
+    Scene scene = builtInScene(smallPicture(16, 16, 1));
+    scene.settings.maxBounces = 4000;
+    for (Material& material : scene.materials) material.baseColor = vec3(1);
+    addBox(scene, scene.camera.position, 9);
+    PreparedScene box = prepareScene(std::move(scene), BvhBuild::sweep, 2);
+
+    DeviceOptions options;
+    options.stepBudget = 1u << 30;
+    auto device = openFirstDevice(options);
+    Film film = renderFilm(*device, box);
+    EXPECT_TRUE(film == renderFilm(*makeCpuDevice({}), box));
+    EXPECT_GT(film.counters.bounces, 16u * 16 * 1000) << "the box does not hold the paths";
+    if (device->info().driver.find("Mesa 22.3") != std::string::npos) {
+        EXPECT_GT(device->statistics().retries, 0u) << "the guard did not see the cut";
+    }
+}
+
+}  // namespace
+}  // namespace sahl::testing
