@@ -20,7 +20,10 @@ namespace {
 
 class MemoryInput : public Imf::IStream {
 public:
-    explicit MemoryInput(const ImageFile& file) : Imf::IStream(""), bytes_(file.bytes) {}
+    explicit MemoryInput(const ImageFile& file)
+        : Imf::IStream(fs::path(file.name).filename().c_str()), bytes_(file.bytes)
+    {
+    }
 
     bool read(char* target, int count) override
     {

@@ -65,14 +65,18 @@ constexpr uint32_t MACHINE = AUDIT_ARCH_AARCH64;
 constexpr uint32_t MACHINE = 0;  // not tried out there
 #endif
 
-/// From now on every system call but those that memory, the clock and the end of a process need
-/// fails with EPERM. Kernels without the feature refuse, and the resource limits have to do.
+/// From now on every system call fails with EPERM but those that memory, the clock, signals and the
+/// end of a process need, and those on open files: there is none but /dev/null, and sanitizers
+/// probe memory through pipes. Kernels without filters refuse, and the resource limits have to do.
 void forbidSystemCalls()
 {
     constexpr std::array allowed = {
-        SYS_mmap,   SYS_munmap,       SYS_mremap,       SYS_mprotect,       SYS_madvise, SYS_brk,
-        SYS_futex,  SYS_exit,         SYS_exit_group,   SYS_clock_gettime,  SYS_getpid,  SYS_gettid,
-        SYS_tgkill, SYS_rt_sigreturn, SYS_rt_sigaction, SYS_rt_sigprocmask,
+        SYS_mmap,        SYS_munmap,        SYS_mremap,       SYS_mprotect,
+        SYS_madvise,     SYS_brk,           SYS_futex,        SYS_exit,
+        SYS_exit_group,  SYS_clock_gettime, SYS_getpid,       SYS_gettid,
+        SYS_tgkill,      SYS_rt_sigreturn,  SYS_rt_sigaction, SYS_rt_sigprocmask,
+        SYS_sigaltstack, SYS_pipe2,         SYS_read,         SYS_write,
+        SYS_close,
     };
     std::vector<sock_filter> program = {
         BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, arch)),
@@ -91,6 +95,20 @@ void forbidSystemCalls()
     }
 }
 
+/// /dev/null instead of the standard streams (glibc reports damaged heaps there), nothing else
+/// open.
+void closeFiles()
+{
+    int null = ::open("/dev/null", O_RDWR);
+    for (int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (null < 0 || ::dup2(null, stream) < 0) ::close(stream);
+    }
+    constexpr int first = STDERR_FILENO + 1;
+    if (::close_range(first, ~0u, 0) != 0) {
+        for (int fd = first; fd < 1024; fd++) ::close(fd);
+    }
+}
+
 /// Makes this child harmless. What may be inherited from the parent (handlers that would print a
 /// report, buffered output) is put out of reach.
 void confine(const IsolatedLimits& limits)
@@ -101,8 +119,7 @@ void confine(const IsolatedLimits& limits)
     }
     // Ctrl-C reaches the whole process group; the parent decides what it means.
     for (int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_IGN);
-    int null = ::open("/dev/null", O_WRONLY);
-    if (null >= 0) ::dup2(null, STDERR_FILENO);  // glibc reports damaged heaps there
+    closeFiles();
 
     limitResource(RLIMIT_CORE, 0);
     limitResource(RLIMIT_FSIZE, 0);

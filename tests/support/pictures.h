@@ -31,6 +31,7 @@ inline Image readBytes(const FileBytes& bytes)
 {
     static const TemporaryFolder folder;
     const fs::path path = folder.path / "picture";
+    fs::remove(path);  // some file systems write truncated files to the disk at once
     std::ofstream(path, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
