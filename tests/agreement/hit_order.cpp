@@ -32,7 +32,7 @@ Traversal bruteForce(reference::Kernel<>& kernel, const Ray& ray)
     const auto boxes = kernel.makeBoxRay(ray.org, ray.dir);
     const auto sheared = kernel.shearRay(ray.dir);
     for (uint slot = 0; slot < kernel.triangles.size(); slot++)
-        kernel.visitTriangle(ray.org, sheared, boxes, slot, walk);
+        kernel.visitTriangle(ray.org, ray.dir, sheared, boxes, slot, walk);
     return walk;
 }
 
