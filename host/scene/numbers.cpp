@@ -18,9 +18,8 @@ bool isTooSmall(std::string_view text)
     return text.substr(0, text.find('.')).find_first_of("123456789") == std::string_view::npos;
 }
 
-}  // namespace
-
-NumberText parseNumber(std::string_view text, double& value)
+template <class Real>
+NumberText parse(std::string_view text, Real& value)
 {
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
     const char* end = text.data() + text.size();
@@ -32,6 +31,17 @@ NumberText parseNumber(std::string_view text, double& value)
     }
     if (!(std::abs(value) <= std::numeric_limits<float>::max())) return NumberText::notFinite;
     return NumberText::fine;
+}
+
+}  // namespace
+
+NumberText parseNumber(std::string_view text, double& value)
+{
+    return parse(text, value);
+}
+NumberText parseNumber(std::string_view text, float& value)
+{
+    return parse(text, value);
 }
 
 float toFloat(double value)

@@ -18,8 +18,9 @@ enum class NumberText {
 };
 
 /// Reads all of `text` as a decimal number ("-1.5e3", a leading '+' is allowed) whatever the
-/// locale. What lies below the range of double becomes 0.
+/// locale. What lies below the range of the type becomes 0.
 NumberText parseNumber(std::string_view text, double& value);
+NumberText parseNumber(std::string_view text, float& value);  ///< correctly rounded to float
 
 /// Nearest float; magnitudes below SMALLEST_MAGNITUDE become +0.
 float toFloat(double value);

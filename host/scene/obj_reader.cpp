@@ -53,7 +53,7 @@ std::string at(const ObjReading& reading, const Statement& statement)
 
 /// Reads all numbers of a statement; `count` of them are expected at least, `most` at most.
 size_t readNumbers(const ObjReading& reading, const Statement& statement, size_t least, size_t most,
-                   std::array<double, 8>& values, bool allowNotFinite)
+                   std::array<float, 8>& values, bool allowNotFinite)
 {
     std::string_view rest = statement.rest;
     size_t n = 0;
@@ -81,7 +81,7 @@ size_t readNumbers(const ObjReading& reading, const Statement& statement, size_t
 
 void readVertexStatement(ObjReading& reading, const Statement& s)
 {
-    std::array<double, 8> x = {};
+    std::array<float, 8> x = {};
     Mesh& mesh = reading.result.mesh;
     if (s.keyword == "v") {
         size_t n = readNumbers(reading, s, 3, 7, x, false);

@@ -5,8 +5,8 @@
 
 namespace sahl {
 
-/// The Utah teapot: 64 n^2 - 8 n triangles for n = subdivisions of a patch's edge. It stands on
-/// y = 0, axis +Y, spout towards +X: 6.5 wide, 3.15 high, 4 deep.
+/// The Utah teapot: 64 n^2 - 8 n triangles for n = subdivisions >= 2 of a patch's edge. It stands
+/// on y = 0, axis +Y, spout towards +X: 6.5 wide, 3.15 high, 4 deep.
 ///   smooth  corner normals of the curved surface itself
 Mesh makeTeapot(uint32_t subdivisions, bool smooth);
 

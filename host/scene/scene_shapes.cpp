@@ -196,7 +196,7 @@ void readShape(SceneReading& reading, const JsonNode& node)
         bool smooth = shape.boolean("smoothNormals", false) || reading.options.smoothNormals;
         if (smooth) makeSmoothNormals(mesh);
     } else if (type == "teapot") {
-        mesh = makeTeapot(shape.uint("subdivisions", 16, 1, MAX_TEAPOT_SUBDIVISIONS),
+        mesh = makeTeapot(shape.uint("subdivisions", 16, 2, MAX_TEAPOT_SUBDIVISIONS),
                           shape.boolean("smooth", true));
     } else if (type == "sphereMesh") {
         mesh = readSphere(shape);

@@ -53,8 +53,8 @@ double coverage(const Softbox& box, const dvec3& d)
 /// nadir.
 dvec3 room(const dvec3& d)
 {
-    const dvec3 horizon(0.46, 0.47, 0.49), zenith(0.24, 0.26, 0.30);
-    const dvec3 floorFar(0.40, 0.385, 0.365), floorNear(0.24, 0.225, 0.205);
+    const dvec3 horizon(0.34, 0.35, 0.365), zenith(0.17, 0.185, 0.215);
+    const dvec3 floorFar(0.29, 0.28, 0.265), floorNear(0.17, 0.16, 0.147);
     if (d.y >= 0) return horizon + (zenith - horizon) * smoothStep(0, 0.9, d.y);
     dvec3 floor = floorFar + (floorNear - floorFar) * smoothStep(0, 0.8, -d.y);
     return horizon + (floor - horizon) * smoothStep(0, 0.12, -d.y);
@@ -65,10 +65,10 @@ dvec3 studioRadiance(const dvec3& d)
     // Seen by a camera that looks along -Z: key from the upper left in front, fill from the right,
     // a strip behind the subject, and a large scoop overhead.
     static const std::array<Softbox, 4> boxes = {{
-        {directionTo(-128, 42), 0.62, 0.50, 0.16, dvec3(7.6, 7.1, 6.4)},
-        {directionTo(112, 22), 0.55, 0.60, 0.25, dvec3(1.25, 1.4, 1.65)},
-        {directionTo(28, 38), 0.55, 0.22, 0.12, dvec3(3.0, 3.15, 3.4)},
-        {directionTo(180, 80), 0.60, 0.60, 0.30, dvec3(1.5, 1.5, 1.5)},
+        {directionTo(-114, 42), 0.60, 0.48, 0.16, dvec3(4.6, 4.2, 3.65)},
+        {directionTo(112, 22), 0.55, 0.60, 0.25, dvec3(0.35, 0.43, 0.55)},
+        {directionTo(28, 38), 0.55, 0.22, 0.12, dvec3(1.1, 1.18, 1.3)},
+        {directionTo(180, 80), 0.60, 0.60, 0.30, dvec3(0.35, 0.36, 0.38)},
     }};
     dvec3 sum = room(d);
     for (const Softbox& box : boxes) sum += box.radiance * coverage(box, d);

@@ -1,0 +1,342 @@
+// Scene files: what the keys mean, and where mistakes are said to be.
+#include "scene/json_document.h"
+#include "scene/scene_keys.h"
+#include "support/scene_files.h"
+
+#include <algorithm>
+#include <clocale>
+#include <locale>
+
+namespace sahl {
+namespace {
+
+using namespace sahl::testing;
+
+const char* const MINIMAL = R"({ "camera": { "eye": [0, 0, 5], "lookAt": [0, 0, 0] },
+  "environment": { "radiance": [1, 1, 1] } })";
+
+TEST(JsonScene, defaultsAreThoseOfTheSchema)
+{
+    const Scene scene = loadJson(MINIMAL);
+    EXPECT_EQ(scene.settings.width, 512u);
+    EXPECT_EQ(scene.settings.height, 512u);
+    EXPECT_EQ(scene.settings.spp, 64u);
+    EXPECT_EQ(scene.settings.maxBounces, 8u);
+    EXPECT_EQ(scene.settings.seed, 0u);
+    EXPECT_TRUE(scene.triangles.empty());
+    EXPECT_FLOAT_EQ(scene.camera.right.x, 0.36397023f);  // tan 20 degrees
+}
+
+TEST(JsonScene, readsFilmIntegratorMaterialsAndLights)
+{
+    const Scene scene = loadJson(R"({
+        "film": { "width": 64, "height": 32 },
+        "integrator": { "type": "path", "maxBounces": 3, "samplesPerPixel": 5, "seed": 4294967295 },
+        "materials": { "a": { "type": "lambert", "baseColor": [0.25, 0.5, 1], "emission": [1, 2, 3] } },
+        "shapes": [{ "type": "rectangle", "corner": [0, 0, 0], "edgeU": [1, 0, 0], "edgeV": [0, 1, 0],
+                     "material": "a" }],
+        "lights": [{ "type": "point", "position": [1, 2, 3], "intensity": [4, 5, 6] }] })");
+    EXPECT_EQ(scene.settings.width, 64u);
+    EXPECT_EQ(scene.settings.height, 32u);
+    EXPECT_EQ(scene.settings.maxBounces, 3u);
+    EXPECT_EQ(scene.settings.spp, 5u);
+    EXPECT_EQ(scene.settings.seed, 4294967295u);
+    ASSERT_EQ(scene.materials.size(), 1u);
+    EXPECT_EQ(scene.materialNames.at(0), "a");
+    EXPECT_EQ(scene.materials[0].baseColor, vec3(0.25f, 0.5f, 1));
+    EXPECT_EQ(scene.materials[0].emission, vec3(1, 2, 3));
+    ASSERT_EQ(scene.lights.size(), 1u);
+    EXPECT_EQ(scene.lights[0].position, vec3(1, 2, 3));
+    EXPECT_EQ(scene.lights[0].intensity, vec3(4, 5, 6));
+    ASSERT_EQ(scene.triangles.size(), 2u);
+    EXPECT_EQ(scene.triangles[1].primitive, 1u);
+    EXPECT_EQ(scene.probe.height, 0u);
+}
+
+TEST(JsonScene, optionsOverrideTheFile)
+{
+    SceneOptions options;
+    options.width = 7;
+    options.height = 9;
+    options.spp = 11;
+    options.maxBounces = 0;
+    options.seed = 13;
+    options.probeFilter = "nearest";
+    const Scene scene = loadJson(MINIMAL, options);
+    EXPECT_EQ(scene.settings.width, 7u);
+    EXPECT_EQ(scene.settings.height, 9u);
+    EXPECT_EQ(scene.settings.spp, 11u);
+    EXPECT_EQ(scene.settings.maxBounces, 0u);
+    EXPECT_EQ(scene.settings.seed, 13u);
+    EXPECT_EQ(scene.probe.filterMode, FILTER_NEAREST);
+    EXPECT_FLOAT_EQ(scene.camera.right.x / scene.camera.down.y, -7.0f / 9.0f);
+}
+
+TEST(JsonScene, transformsApplyMatrixScaleRotateTranslateInThatOrder)
+{
+    const Scene scene = loadJson(R"({ "shapes": [{ "type": "triangles",
+        "positions": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "indices": [[0, 1, 2]],
+        "transform": { "translate": [10, 0, 0], "rotateDeg": { "axis": [0, 0, 2], "angle": 90 },
+                       "scale": [2, 3, 1], "matrix": [1,0,0,1, 0,1,0,0, 0,0,1,0, 0,0,0,1] } }] })");
+    // (0,0,0) -> (1,0,0) -> (2,0,0) -> (0,2,0) -> (10,2,0)
+    const Triangle& t = scene.triangles.at(0);
+    EXPECT_EQ(t.p0, vec3(10, 2, 0));
+    EXPECT_EQ(t.p1, vec3(10, 4, 0));
+    EXPECT_EQ(t.p2, vec3(7, 2, 0));
+}
+
+TEST(JsonScene, shapeWithoutMaterialIsGrey)
+{
+    const Scene scene = loadJson(R"({ "shapes": [{ "type": "sphereMesh", "level": 0 },
+                                                 { "type": "sphereMesh", "level": 0 }] })");
+    ASSERT_EQ(scene.materials.size(), 1u);
+    EXPECT_EQ(scene.materials[0].baseColor, vec3(0.7f));
+    EXPECT_EQ(scene.triangles.size(), 40u);
+}
+
+TEST(JsonScene, meshMaterialReplacesThoseOfTheFile)
+{
+    SceneFolder files;
+    files.write("a.mtl", "newmtl red\nKd 1 0 0\n");
+    files.write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
+    files.write("own.json", R"({ "shapes": [{ "type": "mesh", "file": "a.obj" }] })");
+    files.write("other.json",
+                R"({ "materials": { "blue": { "type": "lambert", "baseColor": [0, 0, 1] } },
+        "shapes": [{ "type": "mesh", "file": "a.obj", "material": "blue" }] })");
+    const Scene own = files.load("own.json");
+    EXPECT_EQ(own.materials.at(own.triangles.at(0).material).baseColor, vec3(1, 0, 0));
+    const Scene other = files.load("other.json");
+    EXPECT_EQ(other.materials.at(other.triangles.at(0).material).baseColor, vec3(0, 0, 1));
+}
+
+TEST(JsonScene, filesOutsideTheFolderNeedPermission)
+{
+    SceneFolder files;
+    files.write("meshes/a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    files.write("scenes/s.json",
+                R"({ "shapes": [{ "type": "mesh", "file": "../meshes/a.obj" }] })");
+    EXPECT_CONTAINS(errorOfFile(files, "scenes/s.json"),
+                    "scenes/s.json:1:40: \"../meshes/a.obj\" lies "
+                    "outside the scene's folder; --allow-path");
+    SceneOptions options;
+    options.allowedPaths = {files.folder.path / "meshes"};
+    EXPECT_EQ(files.load("scenes/s.json", options).triangles.size(), 1u);
+}
+
+TEST(JsonScene, linksOutOfTheFolderAreFollowedBeforeTheCheck)
+{
+    SceneFolder files;
+    files.write("secret/a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    files.write("scenes/s.json", R"({ "shapes": [{ "type": "mesh", "file": "link.obj" }] })");
+    fs::create_symlink(files.folder.path / "secret/a.obj", files.folder.path / "scenes/link.obj");
+    EXPECT_CONTAINS(errorOfFile(files, "scenes/s.json"), "outside the scene's folder");
+}
+
+TEST(JsonScene, aMeshUsedTwiceIsPlacedTwice)
+{
+    SceneFolder files;
+    files.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    files.write("s.json", R"({ "shapes": [{ "type": "mesh", "file": "a.obj" },
+        { "type": "mesh", "file": "a.obj", "transform": { "translate": [0, 0, 1] } }] })");
+    const Scene scene = files.load("s.json");
+    ASSERT_EQ(scene.triangles.size(), 2u);
+    EXPECT_EQ(scene.triangles[1].p0, vec3(0, 0, 1));
+}
+
+/// A mistake and what must be said about it.
+struct Mistake {
+    const char* json;
+    const char* message;
+};
+
+TEST(JsonScene, mistakesAreNamedWithLineAndColumn)
+{
+    const Mistake mistakes[] = {
+        {"{\n \"materials\": {\n  \"clay\": { \"type\": \"lambert\", \"colour\": [1, 1, 1] } } }",
+         "scene.json:3:32: unknown key \"colour\" in material \"clay\"; did you mean "
+         "\"baseColor\"?"},
+        {"{ \"camra\": {} }",
+         "scene.json:1:3: unknown key \"camra\" in the scene; did you mean \"camera\"?"},
+        {"{ \"zzzzzzzz\": 1 }", "scene.json:1:3: unknown key \"zzzzzzzz\" in the scene"},
+        {"{ \"camera\": { \"eye\": [0, 0, 1] } }",
+         "scene.json:1:13: the camera lacks the key \"lookAt\""},
+        {"{ \"film\": { \"width\": 0 } }",
+         "scene.json:1:22: \"width\" of the film is 0; it must lie in [1, 32768]"},
+        {"{ \"film\": { \"width\": 1.5 } }",
+         "scene.json:1:22: \"width\" of the film is 1.5; it must be a whole number"},
+        {"{ \"film\": { \"width\": \"wide\" } }",
+         "scene.json:1:22: \"width\" of the film must be a number, found a text"},
+        {"{ \"film\": { \"width\": 32768, \"height\": 32768 } }",
+         "a picture of 32768 x 32768 pixels"},
+        {"{ \"shapes\": [{ \"type\": \"teapod\" }] }",
+         "scene.json:1:24: \"type\" of a shape is \"teapod\"; did you mean \"teapot\"?"},
+        {"{ \"shapes\": [{ \"level\": 3 }] }",
+         "scene.json:1:14: a shape lacks the key \"type\", one of"},
+        {"{ \"materials\": { \"glass\": { \"type\": \"lambert\" } },\n"
+         "  \"shapes\": [{ \"type\": \"teapot\", \"material\": \"glas\" }] }",
+         "scene.json:2:46: material \"glas\" is not defined; did you mean \"glass\"?"},
+        {"{ \"materials\": { \"a\": { \"type\": \"lambert\", \"baseColor\": [0, 1.5, 0] } } }",
+         "scene.json:1:61: \"baseColor\" of material \"a\" is 1.5; it must lie in [0, 1]"},
+        {"{ \"materials\": { \"a\": { \"type\": \"lambert\", \"baseColor\": [0, 1] } } }",
+         "scene.json:1:57: \"baseColor\" of material \"a\" needs 3 numbers, found 2"},
+        {"{ \"environment\": { } }", "needs exactly one of \"file\", \"radiance\" and \"builtin\""},
+        {"{ \"environment\": { \"builtin\": \"studio\", \"mapping\": \"angular\" } }",
+         "scene.json:1:52: \"mapping\" goes with \"file\" only"},
+        {"{ \"shapes\": [{ \"type\": \"teapot\", \"transform\": { \"scale\": [1, 0, 1] } }] }",
+         "scene.json:1:47: the transform of the shape \"teapot\" cannot be inverted"},
+        {"{ \"shapes\": [{ \"type\": \"triangles\", \"positions\": [[0,0,0],[1,0,0],[0,1,0]],\n"
+         " \"indices\": [[0, 1, 3]] }] }",
+         "scene.json:2:21: an index is 3; it must lie in [0, 2]"},
+        {"{ \"camera\": { \"eye\": [0, 0, 0], \"lookAt\": [0, 0, 0] } }",
+         "scene.json:1:13: camera: eye and lookAt coincide"},
+        {"{ \"film\": {}, \"film\": {} }", "scene.json:1:15: duplicate key \"film\""},
+        {"{ \"film\": {} } x", "scene.json:1:16: syntax error"},
+        {"{ \"film\": { \"width\": 1e400 } }", "scene.json:1:26: number overflow"},
+        {"{ \"film\": { \"width\": NaN } }", "scene.json:1:22: syntax error"},
+        {"{ \"film\": { // comment\n } }", "scene.json:1:13: syntax error"},
+        {"{ \"description\": \"\xff\" }", "scene.json:1:19: syntax error"},
+        {"", "scene.json:1:1: syntax error"},
+        {"[1]", "scene.json:1:1: the scene must be an object, found an array"},
+        {"{ \"description\": \"\xC3\xA9\xC3\xA9\", \"x\": 1 }",
+         "scene.json:1:24: unknown key \"x\""},
+    };
+    for (const Mistake& mistake : mistakes) {
+        EXPECT_CONTAINS(errorOfJson(mistake.json), mistake.message);
+    }
+}
+
+TEST(JsonDocument, everyValueKnowsWhereItStands)
+{
+    const JsonDocument document = parseJson(
+        "f", "\xEF\xBB\xBF{ \"a\\\"b\" :\n [1, -2.5e3,\t\"x\\\\\", {\"c\" : null}, true, []] }");
+    const JsonNode& list = document.root.items.at(0);
+    EXPECT_EQ(document.where(document.root.keys.at(0).offset), "f:1:4");
+    EXPECT_EQ(document.root.keys.at(0).name, "a\"b");
+    const char* const places[] = {"f:2:3", "f:2:6", "f:2:14", "f:2:21", "f:2:35", "f:2:41"};
+    ASSERT_EQ(list.items.size(), std::size(places));
+    for (size_t i = 0; i < std::size(places); i++) {
+        EXPECT_EQ(document.where(list.items[i].offset), places[i]);
+    }
+    EXPECT_EQ(list.items[1].number, -2500.0);
+    EXPECT_EQ(list.items[2].text, "x\\");
+    EXPECT_EQ(document.where(list.items[3].items.at(0).offset), "f:2:28");
+}
+
+const JsonNode& child(const JsonNode& node, const std::string& key)
+{
+    for (size_t i = 0; i < node.keys.size(); i++) {
+        if (node.keys[i].name == key) return node.items[i];
+    }
+    ADD_FAILURE() << "the schema lacks " << key;
+    return node;
+}
+
+bool has(const JsonNode& node, const std::string& key)
+{
+    return std::any_of(node.keys.begin(), node.keys.end(),
+                       [&](const JsonKey& k) { return k.name == key; });
+}
+
+JsonDocument readSchema()
+{
+    const fs::path path = fs::path(__FILE__).parent_path() / "../../scenes/schema.json";
+    return parseJson("schema.json", readTextFile(path));
+}
+
+TEST(Schema, hasTheKeysThatTheReaderHas)
+{
+    const JsonDocument schema = readSchema();
+    for (const KeySet& set : sceneKeys()) {
+        const JsonNode& object =
+            set.object == "scene" ? schema.root : child(child(schema.root, "$defs"), set.object);
+        EXPECT_FALSE(child(object, "additionalProperties").truth) << set.object;
+        std::vector<std::string> keys, required;
+        for (const JsonKey& key : child(object, "properties").keys) keys.push_back(key.name);
+        if (has(object, "required")) {
+            for (const JsonNode& key : child(object, "required").items)
+                required.push_back(key.text);
+        }
+        EXPECT_EQ(keys, set.keys) << set.object;
+        EXPECT_EQ(required, set.required) << set.object;
+    }
+}
+
+/// A scene in which one object of the kind has one more key; "" for kinds that are not tried.
+std::string sceneWith(const std::string& object, const std::string& key, const std::string& value)
+{
+    const std::string extra = "\"" + key + "\": " + value;
+    if (object == "film" || object == "integrator")
+        return "{ \"" + object + "\": { " + extra + " } }";
+    if (object == "camera")
+        return R"({ "camera": { "eye": [0,0,5], "lookAt": [0,0,0], )" + extra + " } }";
+    if (object == "environment")
+        return R"({ "environment": { "builtin": "studio", )" + extra + " } }";
+    if (object == "teapot") return R"({ "shapes": [{ "type": "teapot", )" + extra + " }] }";
+    if (object == "sphereMesh") return R"({ "shapes": [{ "type": "sphereMesh", )" + extra + " }] }";
+    if (object == "disk" && key != "radius") {
+        return R"({ "shapes": [{ "type": "disk", "radius": 1, )" + extra + " }] }";
+    }
+    return "";
+}
+
+TEST(Schema, statesTheRangesThatTheReaderHolds)
+{
+    const JsonDocument schema = readSchema();
+    int tried = 0;
+    for (const KeySet& set : sceneKeys()) {
+        if (set.object == "scene") continue;
+        const JsonNode& properties =
+            child(child(child(schema.root, "$defs"), set.object), "properties");
+        for (size_t i = 0; i < properties.keys.size(); i++) {
+            const std::string& key = properties.keys[i].name;
+            if (sceneWith(set.object, key, "1").empty()) continue;
+            for (const auto& [bound, sign] :
+                 {std::pair{"minimum", -1.0}, std::pair{"maximum", 1.0}}) {
+                if (!has(properties.items[i], bound)) continue;
+                const double limit = child(properties.items[i], bound).number;
+                const double value = limit + sign * std::max(1.0, limit / 1000);
+                EXPECT_CONTAINS(errorOfJson(sceneWith(set.object, key, fmt::format("{}", value))),
+                                "must lie in");
+                tried++;
+            }
+            if (set.object == "environment" || !has(properties.items[i], "enum")) continue;
+            for (const JsonNode& word : child(properties.items[i], "enum").items) {
+                EXPECT_EQ(errorOfJson(sceneWith(set.object, key, "\"" + word.text + "\"")), "");
+            }
+            EXPECT_CONTAINS(errorOfJson(sceneWith(set.object, key, "\"nonsense\"")),
+                            "is \"nonsense\"");
+            tried++;
+        }
+    }
+    EXPECT_GE(tried, 18);
+}
+
+/// Writes numbers with a comma, as the German locale does.
+struct CommaNumbers : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+};
+
+TEST(Locale, numbersAreReadAlikeInACommaLocale)
+{
+    const std::locale before = std::locale::global(std::locale(std::locale(), new CommaNumbers));
+    for (const char* name : {"de_DE.UTF-8", "de_DE", "fr_FR.UTF-8"}) {
+        if (std::setlocale(LC_NUMERIC, name) != nullptr) break;
+    }
+    SceneFolder files;
+    files.write("a.mtl", "newmtl m\nKd 0.5 0.25 0.125\n");
+    files.write("a.obj", "mtllib a.mtl\nv 0.5 0 0\nv 1.5 0 0\nv 0 1.5 0\nusemtl m\nf 1 2 3\n");
+    files.write("s.json", R"({ "camera": { "eye": [0.5, 1.5, 2.5], "lookAt": [0, 0, 0] },
+        "shapes": [{ "type": "mesh", "file": "a.obj" }] })");
+    const Scene scene = files.load("s.json");
+    const std::string error =
+        errorOfJson(R"({ "camera": { "eye": [0,0,5], "lookAt": [0,0,0], "fovDeg": 180.5 } })");
+    std::setlocale(LC_NUMERIC, "C");
+    std::locale::global(before);
+    EXPECT_EQ(scene.camera.position, vec3(0.5f, 1.5f, 2.5f));
+    EXPECT_EQ(scene.triangles.at(0).p0, vec3(0.5f, 0, 0));
+    EXPECT_EQ(scene.materials.at(0).baseColor, vec3(0.5f, 0.25f, 0.125f));
+    EXPECT_CONTAINS(error, "180.5");
+}
+
+}  // namespace
+}  // namespace sahl
