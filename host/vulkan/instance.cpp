@@ -169,7 +169,7 @@ Instance::~Instance()
 
 std::shared_ptr<Instance> openInstance(bool validation)
 {
-    // Listing the devices and then opening one would otherwise load every driver twice.
+    // Shared, because volk keeps the functions of one instance only.
     static std::mutex mutex;
     static std::weak_ptr<Instance> open[2];
     std::lock_guard lock(mutex);

@@ -70,7 +70,10 @@ void queryProperties(PhysicalDevice& device, bool driverProperties)
     device.subgroupSize = subgroup.subgroupSize;
     if (driverProperties) {
         device.driverId = driver.driverID;
-        device.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+        if (driver.driverInfo[0] != '\0')
+            device.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+        else
+            device.driver = fmt::format("{} {}", driver.driverName, device.driver);
     }
 }
 
@@ -133,6 +136,7 @@ std::vector<PhysicalDevice> physicalDevices(const Instance& instance)
     uint32_t count = 0;
     VkResult result = vkEnumeratePhysicalDevices(instance.handle, &count, nullptr);
     if (result == VK_ERROR_INITIALIZATION_FAILED) return {};
+    check(result, "count Vulkan devices");
     auto handles = enumerate<VkPhysicalDevice>(
         "list Vulkan devices", [&](uint32_t* size, VkPhysicalDevice* items) {
             return vkEnumeratePhysicalDevices(instance.handle, size, items);
