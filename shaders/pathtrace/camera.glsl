@@ -7,15 +7,27 @@ struct Ray
     vec3 dir;    // unit
 };
 
-/// The ray through a point of the picture.
-///   x, y  pixels from the top left corner of the picture; a pixel's centre is at + 0.5
-Ray cameraRay(float x, float y)
+/// The ray through a point of the picture and a point of the lens.
+///   x, y    pixels from the top left corner of the picture; a pixel's centre is at + 0.5
+///   u1, u2  uniform in [0,1), for the point of the lens
+Ray cameraRay(float x, float y, float u1, float u2)
 {
     float sx = quotient(x * 2.0f, float(frame.width)) - 1.0f;
     float sy = quotient(y * 2.0f, float(frame.height)) - 1.0f;
+    vec3 across = frame.camera.right * sx + frame.camera.down * sy;
     Ray ray;
-    ray.org = frame.camera.position;
     ray.tMax = RAY_INFINITY;
-    ray.dir = unit((frame.camera.forward + frame.camera.right * sx) + frame.camera.down * sy);
+    if (frame.camera.type == CAMERA_ORTHOGRAPHIC) {
+        ray.org = frame.camera.position + across;
+        ray.dir = frame.camera.forward;
+        return ray;
+    }
+    // Through a thin lens all light from one point of the plane of focus arrives at one point of the
+    // picture, so every ray of a picture's point goes through the same point of that plane.
+    vec2 disk = sampleDisk(u1, u2);
+    vec3 onLens = frame.camera.lensRight * disk.x + frame.camera.lensDown * disk.y;
+    vec3 toFocus = (frame.camera.forward + across) * frame.camera.focusDistance;
+    ray.org = frame.camera.position + onLens;
+    ray.dir = unit(toFocus - onLens);
     return ray;
 }

@@ -4,26 +4,42 @@ struct LightSample
 {
     vec3 wi;         // unit direction to the light
     float distance;  // [m]; 0: the light gives nothing here
-    vec3 Li;         // what arrives, divided by the density of the choice
+    vec3 Li;         // irradiance of a surface that faces the light, over the density of the choice
 };
 
-/// Chooses one light and a point on it.
+/// Share of a spot light's intensity that goes in a direction whose cosine with its axis is given: a
+/// smooth step between the outer and the inner angle's cosine.
+float spotFalloff(Light light, float cosine)
+{
+    if (!(cosine > light.cosOuter)) return 0.0f;
+    if (cosine >= light.cosInner) return 1.0f;
+    float t = quotient(cosine - light.cosOuter, light.cosInner - light.cosOuter);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+/// Chooses one light; all are as likely.
 ///   u  uniform in [0,1)
 LightSample sampleLight(vec3 p, float u)
 {
     float count = float(frame.lightCount);
     uint chosen = uint(u * count);
     Light light = loadLight(chosen < frame.lightCount ? chosen : frame.lightCount - 1u);
-    vec3 toLight = light.position - p;
-    float d2 = dot3(toLight, toLight);
     LightSample ls;
+    if (light.type == LIGHT_DIRECTIONAL) {
+        ls.distance = RAY_INFINITY;
+        ls.wi = -light.direction;
+        ls.Li = light.intensity * count;
+        return ls;
+    }
     ls.distance = 0.0f;
     ls.wi = vec3(0.0f);
     ls.Li = vec3(0.0f);
-    if (d2 > 1e-30f) {
-        ls.distance = root(d2);
-        ls.wi = toLight * quotient(1.0f, ls.distance);
-        ls.Li = light.intensity * quotient(count, d2);
-    }
+    vec3 toLight = light.position - p;
+    float d2 = dot3(toLight, toLight);
+    if (!(d2 > 1e-30f)) return ls;
+    ls.distance = root(d2);
+    ls.wi = toLight * quotient(1.0f, ls.distance);
+    float share = light.type == LIGHT_SPOT ? spotFalloff(light, -dot3(ls.wi, light.direction)) : 1.0f;
+    ls.Li = light.intensity * (share * quotient(count, d2));
     return ls;
 }

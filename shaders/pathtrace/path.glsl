@@ -1,10 +1,13 @@
 // A path as a sequence of steps on a PathState: begin, extend, shade, shadow; and the loop over them.
 // A megakernel, a wavefront of queues and the CPU reference call these same steps.
 
-/// Folds one event of a path into its digest. Sums of this are compared by `sahl verify`.
-uint digestOf(uint what, uint detail, uint depth, uint phase)
+CONST uint DIGEST_SHADOW = 16u;  // kinds of events; DIGEST_HIT + lobe for what a ray met
+CONST uint DIGEST_HIT = 32u;
+
+/// One event of a path as a number. `sahl verify` compares the sums of these.
+uint digestOf(uint what, uint detail, uint depth, uint kind)
 {
-    return hash4(what, detail, depth, phase).x;
+    return hash4(what, detail, depth, kind).x;
 }
 
 /// Starts sample `sampleIndex` of pixel (x, y): a ray through a random point of the pixel.
@@ -14,7 +17,7 @@ PathState beginPath(uint x, uint y, uint sampleIndex)
     path.pixel = y * frame.width + x;
     path.sampleIndex = sampleIndex;
     vec4 u = random4(path.pixel, sampleIndex, DIMENSION_CAMERA);
-    Ray ray = cameraRay(float(x) + u.x, float(y) + u.y);
+    Ray ray = cameraRay(float(x) + u.x, float(y) + u.y, u.z, u.w);
     path.org = ray.org;
     path.dir = ray.dir;
     path.phase = PHASE_EXTEND;
@@ -26,14 +29,19 @@ PathState beginPath(uint x, uint y, uint sampleIndex)
     path.shadowDir = vec3(0.0f);
     path.Ld = vec3(0.0f);
     path.digest = 0u;
-    path.hasNext = 0u;
+    path.mediumEta = 1.0f;
     return path;
+}
+
+bool inShadowPhase(PathState path)
+{
+    return path.phase == PHASE_SHADOW || path.phase == PHASE_LAST_SHADOW;
 }
 
 /// The walk that the path's phase asks for.
 Traversal beginPathTraversal(PathState path)
 {
-    return beginTraversal(path.phase == PHASE_SHADOW ? path.shadowTMax : RAY_INFINITY);
+    return beginTraversal(inShadowPhase(path) ? path.shadowTMax : RAY_INFINITY);
 }
 
 /// Prepares a shadow ray to one light; its arrival will add path.Ld. Returns whether there is one.
@@ -52,59 +60,77 @@ bool sampleDirectLight(Material material, SurfaceInteraction isect, float u, INO
     return true;
 }
 
-/// Chooses the path's next direction. Returns whether the path goes on.
-bool sampleNextRay(Material material, SurfaceInteraction isect, float u1, float u2,
-                   INOUT(PathState) path)
+/// Chooses the path's next direction and returns the lobe; LOBE_NONE when the path ends.
+uint sampleNextRay(Material material, SurfaceInteraction isect, vec4 u, INOUT(PathState) path)
 {
-    BsdfSample bs = sampleBsdf(material, isect, u1, u2);
+    BsdfSample bs = sampleBsdf(material, isect, path.dir, path.mediumEta, u);
     path.beta = flushed3(path.beta * bs.weight);
-    if (!(bs.pdf > 0.0f) || !(maxComponent(path.beta) > 0.0f)) return false;
+    if (bs.lobe == LOBE_NONE || !(maxComponent(path.beta) > 0.0f)) return LOBE_NONE;
     path.org = offsetOrigin(isect, bs.wi);
     path.dir = bs.wi;
+    path.mediumEta = bs.mediumEta;
     tally.indirectRays++;
-    return true;
+    return bs.lobe;
 }
 
-/// What happens where the path's ray ended: light that is seen, a shadow ray, the next ray.
-void shadePath(Traversal hit, INOUT(PathState) path)
+/// Light that a path sees where its ray meets nothing.
+void seeEnvironment(INOUT(PathState) path)
 {
-    path.digest += digestOf(hit.primitive, floatBitsToUint(hit.tHit), path.depth, PHASE_EXTEND);
-    if (hit.slot == NO_HIT) {
-        path.L = path.L + path.beta * evalProbe(path.dir);
-        path.phase = PHASE_ENDED;
-        return;
-    }
+    vec3 Le = path.depth == 0u ? evalProbe(frame.background, path.dir) : evalProbe(frame.probe, path.dir);
+    path.L = path.L + path.beta * Le;
+    path.phase = PHASE_ENDED;
+}
+
+/// What happens at a surface: its emission, a shadow ray, the next ray. Returns the lobe sampled.
+uint shadeSurface(Traversal hit, INOUT(PathState) path)
+{
     tally.bounces++;
     SurfaceInteraction isect = interactionAt(hit, path.dir);
     Material material = loadMaterial(isect.material);
     path.L = path.L + path.beta * material.emission;
-    if (path.depth >= frame.maxBounces) {
-        path.phase = PHASE_ENDED;
-        return;
-    }
+    path.phase = PHASE_ENDED;
+    if (path.depth >= frame.maxBounces) return LOBE_NONE;
+
     vec4 u = random4(path.pixel, path.sampleIndex,
                      DIMENSION_FIRST_VERTEX + DIMENSIONS_PER_VERTEX * path.depth);
     bool lit = sampleDirectLight(material, isect, u.z, path);
-    bool goesOn = sampleNextRay(material, isect, u.x, u.y, path);
+    uint lobe = sampleNextRay(material, isect, u, path);
     path.depth++;
-    path.hasNext = goesOn ? 1u : 0u;
-    path.phase = lit ? PHASE_SHADOW : (goesOn ? PHASE_EXTEND : PHASE_ENDED);
+    if (lit) {
+        path.phase = lobe != LOBE_NONE ? PHASE_SHADOW : PHASE_LAST_SHADOW;
+    } else if (lobe != LOBE_NONE) {
+        path.phase = PHASE_EXTEND;
+    }
+    return lobe;
+}
+
+/// What happens where the path's ray ended.
+void shadePath(Traversal hit, INOUT(PathState) path)
+{
+    uint depth = path.depth;
+    uint lobe = LOBE_NONE;
+    if (hit.slot == NO_HIT) {
+        seeEnvironment(path);
+    } else {
+        lobe = shadeSurface(hit, path);
+    }
+    path.digest += digestOf(hit.number, floatBitsToUint(hit.tHit), depth, DIGEST_HIT + lobe);
 }
 
 /// What happens when the shadow ray's walk is over.
 void finishShadow(Traversal hit, INOUT(PathState) path)
 {
     uint blocked = hit.slot != NO_HIT ? 1u : 0u;
-    path.digest += digestOf(blocked, 0u, path.depth, PHASE_SHADOW);
+    path.digest += digestOf(blocked, 0u, path.depth, DIGEST_SHADOW);
     if (blocked == 0u) path.L = path.L + path.Ld;
-    path.phase = path.hasNext != 0u ? PHASE_EXTEND : PHASE_ENDED;
+    path.phase = path.phase == PHASE_SHADOW ? PHASE_EXTEND : PHASE_ENDED;
 }
 
 /// Takes a path as far as the steps allow: until it has ended, stepsLeft is 0, or a fault.
 void advancePath(INOUT(PathState) path, INOUT(Traversal) walk)
 {
     while (path.phase != PHASE_ENDED && stepsLeft != 0u) {
-        bool shadow = path.phase == PHASE_SHADOW;
+        bool shadow = inShadowPhase(path);
         vec3 org = shadow ? path.shadowOrg : path.org;
         vec3 dir = shadow ? path.shadowDir : path.dir;
         bool over = traverse(org, dir, shadow, walk);

@@ -1,5 +1,5 @@
 // The path tracer, in the order in which a path meets its parts. The includer provides the buffers
-// (loadNode, loadTriangle, ...), `frame`, STACK_SIZE, TRAVERSAL_ORDER and the macros OUT and INOUT.
+// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, TRAVERSAL_ORDER and the macros OUT and INOUT.
 
 // Invocation-wide state.
 struct Tally
@@ -23,8 +23,10 @@ CONST float RAY_INFINITY = 3.0e38f;
 #include "pathtrace/sampling.glsl"
 #include "pathtrace/camera.glsl"
 #include "pathtrace/triangle.glsl"
+#include "pathtrace/sphere.glsl"
 #include "pathtrace/traverse.glsl"
 #include "pathtrace/interaction.glsl"
+#include "pathtrace/fresnel.glsl"
 #include "pathtrace/bsdf.glsl"
 #include "pathtrace/probe.glsl"
 #include "pathtrace/light.glsl"

@@ -21,29 +21,30 @@ vec2 angularMapFromDirection(vec3 d)
 }
 
 /// Texel (x, y); beside the picture the nearest one, except that lat-long goes round in x.
-vec3 probeTexelAt(int x, int y)
+vec3 probeTexelAt(Probe probe, int x, int y)
 {
-    int width = int(frame.probe.width);
-    int height = int(frame.probe.height);
-    if (frame.probe.mapping == PROBE_LATLONG) {
+    int width = int(probe.width);
+    int height = int(probe.height);
+    if (probe.mapping == PROBE_LATLONG) {
         x = x < 0 ? x + width : (x >= width ? x - width : x);
     } else {
         x = x < 0 ? 0 : (x >= width ? width - 1 : x);
     }
     y = y < 0 ? 0 : (y >= height ? height - 1 : y);
-    return loadProbeTexel(uint(y) * frame.probe.width + uint(x));
+    return loadProbeTexel(probe.firstTexel + uint(y) * probe.width + uint(x));
 }
 
-/// Radiance from direction d [W m^-2 sr^-1].
-vec3 evalProbe(vec3 d)
+/// Radiance from direction dir [W m^-2 sr^-1].
+vec3 evalProbe(Probe probe, vec3 dir)
 {
-    if (frame.probe.height == 0u) return vec3(0.0f);
-    vec2 uv = frame.probe.mapping == PROBE_ANGULAR ? angularMapFromDirection(d)
+    if (probe.height == 0u) return vec3(0.0f);
+    vec3 d = vec3(dot3(probe.axisX, dir), dot3(probe.axisY, dir), dot3(probe.axisZ, dir));
+    vec2 uv = probe.mapping == PROBE_ANGULAR ? angularMapFromDirection(d)
                                                    : latLongFromDirection(d);
-    float x = uv.x * float(frame.probe.width);
-    float y = uv.y * float(frame.probe.height);
-    if (frame.probe.filterMode == FILTER_NEAREST) {
-        return probeTexelAt(int(floor(x)), int(floor(y)));
+    float x = uv.x * float(probe.width);
+    float y = uv.y * float(probe.height);
+    if (probe.filterMode == FILTER_NEAREST) {
+        return probeTexelAt(probe, int(floor(x)), int(floor(y)));
     }
     float left = floor(x - 0.5f);
     float top = floor(y - 0.5f);
@@ -51,7 +52,7 @@ vec3 evalProbe(vec3 d)
     float fy = (y - 0.5f) - top;
     int ix = int(left);
     int iy = int(top);
-    vec3 upper = probeTexelAt(ix, iy) * (1.0f - fx) + probeTexelAt(ix + 1, iy) * fx;
-    vec3 lower = probeTexelAt(ix, iy + 1) * (1.0f - fx) + probeTexelAt(ix + 1, iy + 1) * fx;
+    vec3 upper = probeTexelAt(probe, ix, iy) * (1.0f - fx) + probeTexelAt(probe, ix + 1, iy) * fx;
+    vec3 lower = probeTexelAt(probe, ix, iy + 1) * (1.0f - fx) + probeTexelAt(probe, ix + 1, iy + 1) * fx;
     return upper * (1.0f - fy) + lower * fy;
 }

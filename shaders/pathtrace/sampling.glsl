@@ -11,18 +11,25 @@ void tangentFrame(vec3 n, OUT(vec3) t, OUT(vec3) b)
     b = vec3(c, s + n.y * n.y * a, -n.y);
 }
 
-/// Samples a direction about the unit vector n, with density cosine / pi [1/sr].
-///   u1, u2  uniform in [0,1)
-vec3 sampleCosineHemisphere(vec3 n, float u1, float u2)
+/// Samples the unit disk uniformly, with density 1 / pi. u1, u2 uniform in [0,1).
+vec2 sampleDisk(float u1, float u2)
 {
     float sine;
     float cosine;
     sinCosTurns(u2, sine, cosine);
     float r = root(u1);
+    return vec2(r * cosine, r * sine);
+}
+
+/// Samples a direction about the unit vector n, with density cosine / pi [1/sr].
+///   u1, u2  uniform in [0,1)
+vec3 sampleCosineHemisphere(vec3 n, float u1, float u2)
+{
+    vec2 disk = sampleDisk(u1, u2);
     vec3 t;
     vec3 b;
     tangentFrame(n, t, b);
-    vec3 around = t * (r * cosine) + b * (r * sine);
+    vec3 around = t * disk.x + b * disk.y;
     return unit(around + n * root(1.0f - u1));
 }
 

@@ -42,7 +42,8 @@ SHARED_CONST uint MAX_SUSPENDED_STACK = 64u; // = MAX_STACK_SIZE of scene_types.
 
 SHARED_CONST uint PHASE_EXTEND = 0u;  // the path's ray looks for the closest hit
 SHARED_CONST uint PHASE_SHADOW = 1u;  // its shadow ray looks for any hit
-SHARED_CONST uint PHASE_ENDED = 2u;
+SHARED_CONST uint PHASE_LAST_SHADOW = 2u;  // the same, and the path ends after it
+SHARED_CONST uint PHASE_ENDED = 3u;
 
 // A path between two steps.
 struct PathState
@@ -60,7 +61,7 @@ struct PathState
     vec3 shadowDir;    // unit
     uint digest;
     vec3 Ld;           // what the light adds when the shadow ray arrives
-    uint hasNext;      // 1: a ray that continues the path waits behind the shadow ray
+    float mediumEta;   // index of refraction where the path is, by the report's rule
 };
 GPU_STRUCT_SIZE(PathState, 112);
 GPU_FIELD(PathState, Ld, 96);
@@ -70,8 +71,8 @@ struct Traversal
 {
     uint ref;          // what to visit next
     uint stackSize;    // entries on the stack
-    uint slot;         // closest hit so far: index in `triangles`, or NO_HIT
-    uint primitive;    // its number in the scene
+    uint slot;         // closest hit so far: index in `primitives`, or NO_HIT
+    uint number;       // of its primitive in the scene
     float tHit;        // its distance [m]; the ray's end while nothing is hit
     float b1;          // its barycentric coordinates
     float b2;

@@ -9,15 +9,16 @@ SHARED_BEGIN
 
 // A reference to something in the tree is one uint:
 //   inner node   its index in `nodes`
-//   leaf         REF_LEAF | first triangle << 3 | (triangle count - 1)
+//   leaf         REF_LEAF | first primitive << 3 | (primitive count - 1)
 //   nothing      REF_NONE (it has the leaf bit, so that "is an inner node" is one test)
 SHARED_CONST uint REF_LEAF = 0x80000000u;
 SHARED_CONST uint REF_NONE = 0xffffffffu;
 SHARED_CONST uint LEAF_COUNT_BITS = 3u;
 SHARED_CONST uint MAX_LEAF_SIZE = 8u;
-SHARED_CONST uint MAX_TRIANGLES = 0x0ffffff0u;  // so that no leaf reference equals REF_NONE
+SHARED_CONST uint MAX_PRIMITIVES = 0x0ffffff0u;  // so that no leaf reference equals REF_NONE
 SHARED_CONST uint MAX_STACK_SIZE = 64u;         // bound of the tree's depth
-SHARED_CONST uint NO_NORMALS = 0xffffffffu;
+SHARED_CONST uint SHAPE_FLAT = 0xffffffffu;    // a triangle without normals of its own
+SHARED_CONST uint SHAPE_SPHERE = 0xfffffffeu;
 SHARED_CONST uint NO_HIT = 0xffffffffu;
 
 // An inner node holds the boxes of its two children: one read serves two box tests.
@@ -36,19 +37,19 @@ GPU_STRUCT_SIZE(BvhNode, 64);
 GPU_FIELD(BvhNode, ref1, 28);
 GPU_FIELD(BvhNode, hi1, 48);
 
-// Stored in the order of the leaves.
-struct Triangle
+// A triangle or a sphere. Stored in the order of the leaves.
+struct Primitive
 {
-    vec3 p0;        // corners, world space [m]; counter-clockwise seen from the front
-    uint primitive; // number of the triangle in the scene as read: decides ties, names hits
-    vec3 p1;
+    vec3 p0;        // triangle: corners, world space [m]; counter-clockwise seen from the front
+    uint number;    // of the primitive in the scene as read: decides ties, names hits
+    vec3 p1;        // sphere: centre in p0, radius in p1.x [m]
     uint material;  // index in `materials`
     vec3 p2;
-    uint normals;   // index in `triangleNormals`, or NO_NORMALS for a flat triangle
+    uint shape;     // triangle: index in `triangleNormals`, or SHAPE_FLAT; or SHAPE_SPHERE
 };
-GPU_STRUCT_SIZE(Triangle, 48);
-GPU_FIELD(Triangle, primitive, 12);
-GPU_FIELD(Triangle, normals, 44);
+GPU_STRUCT_SIZE(Primitive, 48);
+GPU_FIELD(Primitive, number, 12);
+GPU_FIELD(Primitive, shape, 44);
 
 struct TriangleNormals
 {
@@ -62,79 +63,111 @@ struct TriangleNormals
 GPU_STRUCT_SIZE(TriangleNormals, 48);
 GPU_FIELD(TriangleNormals, n2, 32);
 
-SHARED_CONST uint MATERIAL_LAMBERT = 0u;
+SHARED_CONST uint MATERIAL_LAMBERT = 0u;     // diffuse, baseColor
+SHARED_CONST uint MATERIAL_MIRROR = 1u;      // reflects baseColor of what arrives
+SHARED_CONST uint MATERIAL_DIELECTRIC = 2u;  // smooth glass, water: eta; baseColor tints transmission
+SHARED_CONST uint MATERIAL_CONDUCTOR = 3u;   // smooth metal: conductorEta, conductorK
+SHARED_CONST uint MATERIAL_REPORT = 4u;      // the report's: weights of a diffuse and a dielectric part
 
 struct Material
 {
-    vec3 baseColor;   // reflectance, linear Rec. 709, in [0,1]
-    float unused0;
-    vec3 emission;    // radiance on both sides [W m^-2 sr^-1], linear Rec. 709
-    uint type;        // one of MATERIAL_*
+    vec3 baseColor;       // linear Rec. 709, in [0,1]
+    float eta;            // index of refraction behind the surface, relative to vacuum; > 0
+    vec3 emission;        // radiance on both sides [W m^-2 sr^-1], linear Rec. 709
+    uint type;            // one of MATERIAL_*
+    vec3 conductorEta;    // complex index of refraction eta + i k at red, green and blue
+    float diffuseWeight;  // MATERIAL_REPORT, in [0,1]
+    vec3 conductorK;
+    float specularWeight; // MATERIAL_REPORT, in [0,1]
 };
-GPU_STRUCT_SIZE(Material, 32);
+GPU_STRUCT_SIZE(Material, 64);
 GPU_FIELD(Material, type, 28);
+GPU_FIELD(Material, conductorK, 48);
 
 SHARED_CONST uint LIGHT_POINT = 0u;
+SHARED_CONST uint LIGHT_SPOT = 1u;
+SHARED_CONST uint LIGHT_DIRECTIONAL = 2u;
 
 struct Light
 {
-    vec3 position;    // world space [m]
+    vec3 position;    // point and spot: world space [m]
     uint type;        // one of LIGHT_*
-    vec3 intensity;   // radiant intensity [W sr^-1], linear Rec. 709
-    float unused0;
+    vec3 intensity;   // point and spot: radiant intensity [W sr^-1]; directional: irradiance of a
+                      // surface that faces the light [W m^-2]; linear Rec. 709
+    float cosOuter;   // spot: cosine of the angle beyond which there is no light
+    vec3 direction;   // spot and directional: unit, the way the light goes
+    float cosInner;   // spot: cosine of the angle within which the intensity is full
 };
-GPU_STRUCT_SIZE(Light, 32);
-GPU_FIELD(Light, type, 12);
+GPU_STRUCT_SIZE(Light, 48);
+GPU_FIELD(Light, cosOuter, 28);
+GPU_FIELD(Light, direction, 32);
 
-// A pixel (x, y), counted from the top left, is seen along
-//   forward + right * (x * 2/width - 1) + down * (y * 2/height - 1),
-// so |right| and |down| are the tangents of half the fields of view.
+SHARED_CONST uint CAMERA_PERSPECTIVE = 0u;
+SHARED_CONST uint CAMERA_ORTHOGRAPHIC = 1u;
+
+// With sx = x * 2/width - 1 and sy = y * 2/height - 1 for a point (x, y) of the picture, counted in
+// pixels from the top left, a perspective camera looks along forward + right sx + down sy, so |right|
+// and |down| are the tangents of half the fields of view; an orthographic one looks along forward from
+// position + right sx + down sy, so they are half the width and height of what is seen [m].
 struct Camera
 {
-    vec3 position;    // world space [m]
-    float unused0;
+    vec3 position;       // world space [m]
+    uint type;           // one of CAMERA_*
     vec3 right;
-    float unused1;
+    float focusDistance; // distance, along forward, of the plane that a lens shows sharply [m]
     vec3 down;
+    float unused0;
+    vec3 forward;        // unit
+    float unused1;
+    vec3 lensRight;      // radius of the thin lens times its axes; 0: a pinhole [m]
     float unused2;
-    vec3 forward;     // unit
+    vec3 lensDown;
     float unused3;
 };
-GPU_STRUCT_SIZE(Camera, 64);
+GPU_STRUCT_SIZE(Camera, 96);
 GPU_FIELD(Camera, forward, 48);
+GPU_FIELD(Camera, lensDown, 80);
 
 SHARED_CONST uint PROBE_LATLONG = 0u;  // Debevec's: centre of the picture is -Z, up is +Y
 SHARED_CONST uint PROBE_ANGULAR = 1u;  // Debevec's angular map: centre -Z, rim +Z
 SHARED_CONST uint FILTER_NEAREST = 0u;
 SHARED_CONST uint FILTER_BILINEAR = 1u;
 
-// The light probe's texels are a buffer of vec4 (RGB radiance, unused), top row first.
+// Texels of all probes are one buffer of vec4 (RGB radiance, unused), top rows first.
 struct Probe
 {
     uint width;
-    uint height;      // 0: no environment, black
+    uint height;      // 0: no probe, black
     uint mapping;     // one of PROBE_*
     uint filterMode;  // one of FILTER_*
+    vec3 axisX;       // a direction d is looked up at (axisX . d, axisY . d, axisZ . d)
+    uint firstTexel;  // in the buffer of texels
+    vec3 axisY;
+    uint unused0;
+    vec3 axisZ;
+    uint unused1;
 };
-GPU_STRUCT_SIZE(Probe, 16);
+GPU_STRUCT_SIZE(Probe, 64);
+GPU_FIELD(Probe, firstTexel, 28);
 
 // Everything that stays the same for a whole picture.
 struct Frame
 {
     Camera camera;
-    Probe probe;
-    uint width;       // of the full picture [pixels], whatever part is rendered
+    Probe probe;         // lights the scene
+    Probe background;    // what camera rays see that meet nothing
+    uint width;          // of the full picture [pixels], whatever part is rendered
     uint height;
     uint seed;
-    uint maxBounces;  // scatterings after which a path ends; it may still see light then
-    uint rootRef;     // reference to the root of the tree
+    uint maxBounces;     // scatterings after which a path ends; it may still see light then
+    uint rootRef;        // reference to the root of the tree
     uint lightCount;
-    uint triangleCount;
+    uint primitiveCount;
     uint unused0;
 };
-GPU_STRUCT_SIZE(Frame, 112);
-GPU_FIELD(Frame, probe, 64);
-GPU_FIELD(Frame, rootRef, 96);
+GPU_STRUCT_SIZE(Frame, 256);
+GPU_FIELD(Frame, probe, 96);
+GPU_FIELD(Frame, rootRef, 240);
 
 SHARED_END
 
