@@ -55,13 +55,14 @@ Traversal beginTraversal(float tMax)
 }
 
 /// Tests the triangle in `slot` and keeps it in `walk` when it is the closest so far.
-void visitTriangle(vec3 org, ShearedRay sheared, BoxRay boxes, uint slot, INOUT(Traversal) walk)
+void visitTriangle(vec3 org, vec3 dir, ShearedRay sheared, BoxRay boxes, uint slot,
+                   INOUT(Traversal) walk)
 {
     Triangle triangle = loadTriangle(slot);
     float t;
     float b1;
     float b2;
-    if (!intersectTriangle(org, sheared, triangle, t, b1, b2)) return;
+    if (!intersectTriangle(org, dir, sheared, triangle, t, b1, b2)) return;
 
     vec3 lo = vec3(min2(min2(triangle.p0.x, triangle.p1.x), triangle.p2.x),
                    min2(min2(triangle.p0.y, triangle.p1.y), triangle.p2.y),
@@ -137,7 +138,7 @@ bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) walk)
         uint count = (walk.ref & (MAX_LEAF_SIZE - 1u)) + 1u;
         uint i = 0u;
         while (i < count) {
-            visitTriangle(org, sheared, boxes, first + i, walk);
+            visitTriangle(org, dir, sheared, boxes, first + i, walk);
             i++;
         }
         if (i != count) faults |= FAULT_LOOP_CUT;

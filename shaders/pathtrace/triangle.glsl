@@ -1,6 +1,7 @@
 // Watertight intersection of a ray with a triangle: Woop, Benthin and Wald 2013, "Watertight
 // Ray/Triangle Intersection", JCGT 2(1), without its double precision fallback: an edge function of
 // zero counts as inside, and two triangles hit at the same distance are told apart by their number.
+// The distance is not theirs but that of the triangle's plane, which stays accurate on slivers.
 
 // The ray's axes permuted and sheared so that it runs along +z.
 struct ShearedRay
@@ -31,26 +32,48 @@ ShearedRay shearRay(vec3 dir)
     return ray;
 }
 
-/// A bound on the rounding error of tHit: a hit closer than this may lie behind the origin.
-/// Pharr, Jakob, Humphreys 2023, "Physically Based Rendering", 4th ed., Sec. 6.8.7; the numbers are
-/// its gamma(n) = n e / (1 - n e), e = 2^-24.
-///   x, y, z  largest sizes of the sheared corners' coordinates
-///   edge     largest size of the edge functions
-float hitDistanceError(float x, float y, float z, float edge, float inverseDet)
+/// Distance at which the ray meets the triangle's plane [m], or a negative number where that is not
+/// certain to be in front of the origin. A distance weighted by barycentric coordinates is off by
+/// hundreds of roundings on long triangles; from a normal made of the two shorter edges it is off by
+/// about one rounding of the farthest corner's distance, divided by the cosine between ray and normal.
+float planeDistance(vec3 org, vec3 dir, Triangle triangle)
 {
-    float dz = 1.78813967e-07f * z;
-    float dx = 2.98023313e-07f * (x + z);
-    float dy = 2.98023313e-07f * (y + z);
-    float de = 2.0f * ((1.19209304e-07f * x * y + dy * x) + dx * y);
-    return 3.0f * ((1.78813967e-07f * edge * z + de * z) + dz * edge) * absolute(inverseDet);
+    vec3 e0 = triangle.p1 - triangle.p0;
+    vec3 e1 = triangle.p2 - triangle.p1;
+    vec3 e2 = triangle.p0 - triangle.p2;
+    float size0 = dot3(e0, e0);
+    float size1 = dot3(e1, e1);
+    float size2 = dot3(e2, e2);
+    bool longest0 = size0 > size1 && size0 > size2;
+    bool longest1 = !longest0 && size1 > size2;
+    vec3 a = longest0 ? e1 : (longest1 ? e2 : e0);
+    vec3 b = longest0 ? e2 : (longest1 ? e0 : e1);
+    vec3 n = cross3(a, b);
+    vec3 toPlane = (longest0 ? triangle.p2 : (longest1 ? triangle.p0 : triangle.p1)) - org;
+    float slope = flushed(dot3(n, dir));
+    if (slope == 0.0f) return -1.0f;
+    float inverseSlope = quotient(1.0f, slope);
+    float t = dot3(n, toPlane) * inverseSlope;
+
+    // A bound on the rounding error of t, so that a hit behind the origin is never taken for one in
+    // front: edges are within 1 rounding (2^-24) of their size, n within 4 of the products below, the
+    // numerator of t within 8 and the slope within 7 of theirs, t itself 2 more. 10 cover all that.
+    vec3 sizeA = absolute3(a);
+    vec3 sizeB = absolute3(b);
+    vec3 products = vec3(sizeA.y * sizeB.z + sizeA.z * sizeB.y, sizeA.z * sizeB.x + sizeA.x * sizeB.z,
+                         sizeA.x * sizeB.y + sizeA.y * sizeB.x);
+    float above = dot3(products, absolute3(toPlane));
+    float below = dot3(products, absolute3(dir));
+    float error = 6e-7f * (above + absolute(t) * below) * absolute(inverseSlope);
+    return t > error ? t : -1.0f;
 }
 
 /// Finds where the ray meets the triangle's plane inside the triangle, in front of the origin.
 ///   t       distance [m], larger than its own rounding error; no upper end is applied
 ///   b1, b2  barycentric coordinates of p1 and p2
 /// Returns false for a miss, a degenerate triangle and anything that is not a number.
-bool intersectTriangle(vec3 org, ShearedRay ray, Triangle triangle, OUT(float) t, OUT(float) b1,
-                       OUT(float) b2)
+bool intersectTriangle(vec3 org, vec3 dir, ShearedRay ray, Triangle triangle, OUT(float) t,
+                       OUT(float) b1, OUT(float) b2)
 {
     t = 0.0f;
     b1 = 0.0f;
@@ -78,18 +101,9 @@ bool intersectTriangle(vec3 org, ShearedRay ray, Triangle triangle, OUT(float) t
     float det = (u + v) + w;
     if (det == 0.0f) return false;
 
-    // Distance
-    az = az * ray.sz;
-    bz = bz * ray.sz;
-    cz = cz * ray.sz;
+    t = planeDistance(org, dir, triangle);
+    if (t < 0.0f) return false;
     float inverseDet = quotient(1.0f, det);
-    t = ((u * az + v * bz) + w * cz) * inverseDet;
-    float sizeX = max2(max2(absolute(ax), absolute(bx)), absolute(cx));
-    float sizeY = max2(max2(absolute(ay), absolute(by)), absolute(cy));
-    float sizeZ = max2(max2(absolute(az), absolute(bz)), absolute(cz));
-    float edge = max2(max2(absolute(u), absolute(v)), absolute(w));
-    if (!(t > hitDistanceError(sizeX, sizeY, sizeZ, edge, inverseDet))) return false;
-
     b1 = v * inverseDet;
     b2 = w * inverseDet;
     return true;
