@@ -11,6 +11,7 @@
 
 layout(constant_id = SPEC_STACK_SIZE) const uint STACK_SIZE = 64u;
 layout(constant_id = SPEC_ORDER) const uint TRAVERSAL_ORDER = ORDER_NEAR_FIRST;
+layout(constant_id = SPEC_EXACT_MATH) const bool EXACT_MATH = false;
 
 layout(std140, set = 0, binding = BINDING_FRAME) uniform FrameBlock
 {
@@ -28,7 +29,7 @@ layout(std140, set = 0, binding = BINDING_FRAME) uniform FrameBlock
 
 // 16 bytes an element, whatever the struct.
 SCENE_BUFFER(BINDING_NODES, nodeWords);
-SCENE_BUFFER(BINDING_TRIANGLES, triangleWords);
+SCENE_BUFFER(BINDING_PRIMITIVES, primitiveWords);
 SCENE_BUFFER(BINDING_NORMALS, normalWords);
 SCENE_BUFFER(BINDING_MATERIALS, materialWords);
 SCENE_BUFFER(BINDING_LIGHTS, lightWords);
@@ -44,13 +45,13 @@ BvhNode loadNode(uint index)
                    uintBitsToFloat(c.xyz), c.w, uintBitsToFloat(d.xyz), d.w);
 }
 
-Triangle loadTriangle(uint index)
+Primitive loadPrimitive(uint index)
 {
-    uvec4 a = FETCH(triangleWords, index * 3u);
-    uvec4 b = FETCH(triangleWords, index * 3u + 1u);
-    uvec4 c = FETCH(triangleWords, index * 3u + 2u);
-    return Triangle(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w,
-                    uintBitsToFloat(c.xyz), c.w);
+    uvec4 a = FETCH(primitiveWords, index * 3u);
+    uvec4 b = FETCH(primitiveWords, index * 3u + 1u);
+    uvec4 c = FETCH(primitiveWords, index * 3u + 2u);
+    return Primitive(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w,
+                     uintBitsToFloat(c.xyz), c.w);
 }
 
 TriangleNormals loadNormals(uint index)
@@ -64,16 +65,22 @@ TriangleNormals loadNormals(uint index)
 
 Material loadMaterial(uint index)
 {
-    uvec4 a = FETCH(materialWords, index * 2u);
-    uvec4 b = FETCH(materialWords, index * 2u + 1u);
-    return Material(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), b.w);
+    uvec4 a = FETCH(materialWords, index * 4u);
+    uvec4 b = FETCH(materialWords, index * 4u + 1u);
+    uvec4 c = FETCH(materialWords, index * 4u + 2u);
+    uvec4 d = FETCH(materialWords, index * 4u + 3u);
+    return Material(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), b.w,
+                    uintBitsToFloat(c.xyz), uintBitsToFloat(c.w), uintBitsToFloat(d.xyz),
+                    uintBitsToFloat(d.w));
 }
 
 Light loadLight(uint index)
 {
-    uvec4 a = FETCH(lightWords, index * 2u);
-    uvec4 b = FETCH(lightWords, index * 2u + 1u);
-    return Light(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), uintBitsToFloat(b.w));
+    uvec4 a = FETCH(lightWords, index * 3u);
+    uvec4 b = FETCH(lightWords, index * 3u + 1u);
+    uvec4 c = FETCH(lightWords, index * 3u + 2u);
+    return Light(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), uintBitsToFloat(b.w),
+                 uintBitsToFloat(c.xyz), uintBitsToFloat(c.w));
 }
 
 vec3 loadProbeTexel(uint index)

@@ -49,7 +49,7 @@ void sampleDiffuse(SurfaceInteraction isect, vec3 color, float u1, float u2, INO
 /// The mirror direction; nothing where an interpolated normal would send it under the surface.
 void sampleReflection(SurfaceInteraction isect, vec3 dir, vec3 color, INOUT(BsdfSample) bs)
 {
-    bs.wi = reflected(dir, isect.ns);
+    bs.wi = reflected(dir, mirrorNormal(isect, dir));
     bs.lobe = dot3(bs.wi, isect.ng) > 0.0f ? LOBE_REFLECT : LOBE_NONE;
     bs.weight = color;
 }
@@ -61,14 +61,15 @@ void sampleReflection(SurfaceInteraction isect, vec3 dir, vec3 color, INOUT(Bsdf
 void sampleFresnel(SurfaceInteraction isect, vec3 dir, float eta, float far, vec3 tint, float u,
                    INOUT(BsdfSample) bs)
 {
-    float cosI = min2(1.0f, absolute(dot3(dir, isect.ns)));
+    vec3 n = mirrorNormal(isect, dir);
+    float cosI = min2(1.0f, absolute(dot3(dir, n)));
     float cosT;
     float reflectance = fresnelDielectric(cosI, eta, cosT);
     if (u < reflectance) {
         sampleReflection(isect, dir, vec3(1.0f), bs);
         return;
     }
-    bs.wi = refracted(dir, isect.ns, cosI, cosT, eta);
+    bs.wi = refracted(dir, n, cosI, cosT, eta);
     bs.lobe = dot3(bs.wi, isect.ng) < 0.0f ? LOBE_TRANSMIT : LOBE_NONE;
     bs.weight = tint;
     bs.mediumEta = far;
@@ -113,7 +114,7 @@ BsdfSample sampleBsdf(Material material, SurfaceInteraction isect, vec3 dir, flo
     } else if (material.type == MATERIAL_MIRROR) {
         sampleReflection(isect, dir, material.baseColor, bs);
     } else if (material.type == MATERIAL_CONDUCTOR) {
-        float cosI = min2(1.0f, absolute(dot3(dir, isect.ns)));
+        float cosI = min2(1.0f, absolute(dot3(dir, mirrorNormal(isect, dir))));
         sampleReflection(isect, dir, conductorReflectance(material, cosI), bs);
     } else if (material.type == MATERIAL_DIELECTRIC) {
         // Radiance is compressed into a smaller solid angle in the denser medium: 1 / eta^2.

@@ -2,16 +2,17 @@
 
 struct SurfaceInteraction
 {
-    vec3 p;           // hit point, from the barycentric coordinates [m]
-    float pError;     // distance along ng within which p may lie beside its triangle [m]
+    vec3 p;           // hit point, computed on the surface rather than along the ray [m]
+    float pError;     // distance along ng within which p may lie beside its surface [m]
     vec3 ng;          // unit geometric normal, on the side that the ray came from
     uint material;
     vec3 ns;          // unit shading normal, on the side of ng
+    bool front;       // the ray came from the front, the outside of a closed surface
 };
 
 /// Unit normal of the triangle's front, computed at a scale at which nothing under- or overflows.
 /// `otherwise` for a triangle without area.
-vec3 triangleNormal(Triangle triangle, vec3 otherwise)
+vec3 triangleNormal(Primitive triangle, vec3 otherwise)
 {
     vec3 e1 = triangle.p1 - triangle.p0;
     vec3 e2 = triangle.p2 - triangle.p0;
@@ -24,43 +25,72 @@ vec3 triangleNormal(Triangle triangle, vec3 otherwise)
     return n * quotient(1.0f, root(n2));
 }
 
-/// The interaction for the closest hit of a ray with direction dir.
-SurfaceInteraction interactionAt(Traversal hit, vec3 dir)
+/// Fills in what follows from the point and the normal of the surface's front.
+///   sizes  on each axis the size of the terms that p is the sum of, at least |p|
+void completeInteraction(vec3 front, vec3 dir, vec3 sizes, INOUT(SurfaceInteraction) isect)
 {
-    Triangle triangle = loadTriangle(hit.slot);
+    isect.front = !(dot3(front, dir) > 0.0f);
+    isect.ng = isect.front ? front : -front;
+    isect.ns = isect.ng;
+
+    // p is within gamma(7) of `sizes` on each axis, and adding an offset rounds once more: less than
+    // 16 times 2^-24 in all. The largest axis counts for all, as the ray/triangle test mixes axes.
+    // (Pharr, Jakob, Humphreys 2023, "Physically Based Rendering", 4th ed., Sec. 6.8.4)
+    vec3 slant = absolute3(isect.ng);
+    isect.pError = 1e-6f * maxComponent(sizes) * ((slant.x + slant.y) + slant.z);
+}
+
+void triangleInteraction(Primitive triangle, Traversal hit, vec3 dir, INOUT(SurfaceInteraction) isect)
+{
     float b0 = (1.0f - hit.b1) - hit.b2;
     vec3 q0 = triangle.p0 * b0;
     vec3 q1 = triangle.p1 * hit.b1;
     vec3 q2 = triangle.p2 * hit.b2;
-
-    SurfaceInteraction isect;
     isect.p = (q0 + q1) + q2;
-    isect.material = triangle.material;
-    vec3 ng = triangleNormal(triangle, -dir);
-    bool fromBehind = dot3(ng, dir) > 0.0f;
-    isect.ng = fromBehind ? -ng : ng;
-
-    // p is within gamma(7) of the sum below on each axis, and adding an offset rounds once more:
-    // less than 16 times 2^-24 in all. The largest axis counts for all, as the ray/triangle test
-    // mixes axes. (pbrt, 4th ed., Sec. 6.8.4)
     vec3 sizes = (absolute3(q0) + absolute3(q1)) + absolute3(q2);
-    vec3 slant = absolute3(isect.ng);
-    isect.pError = 1e-6f * maxComponent(sizes) * ((slant.x + slant.y) + slant.z);
+    completeInteraction(triangleNormal(triangle, -dir), dir, sizes, isect);
+    if (triangle.shape == SHAPE_FLAT) return;
 
-    isect.ns = isect.ng;
-    if (triangle.normals != NO_NORMALS) {
-        TriangleNormals normals = loadNormals(triangle.normals);
-        vec3 ns = (normals.n0 * b0 + normals.n1 * hit.b1) + normals.n2 * hit.b2;
-        float length2 = dot3(ns, ns);
-        if (length2 > 1e-12f) {
-            ns = ns * quotient(1.0f, root(length2));
-            isect.ns = dot3(ns, isect.ng) < 0.0f ? -ns : ns;
-        }
+    TriangleNormals normals = loadNormals(triangle.shape);
+    vec3 ns = (normals.n0 * b0 + normals.n1 * hit.b1) + normals.n2 * hit.b2;
+    float length2 = dot3(ns, ns);
+    if (length2 > 1e-12f) {
+        ns = ns * quotient(1.0f, root(length2));
+        isect.ns = dot3(ns, isect.ng) < 0.0f ? -ns : ns;
+    }
+}
+
+void sphereInteraction(Primitive sphere, Traversal hit, vec3 org, vec3 dir,
+                       INOUT(SurfaceInteraction) isect)
+{
+    // The point along the ray is off by the distance's rounding; its direction from the centre is not.
+    vec3 normal = unit((org + dir * hit.tHit) - sphere.p0);
+    vec3 arm = normal * sphere.p1.x;
+    isect.p = sphere.p0 + arm;
+    completeInteraction(normal, dir, absolute3(sphere.p0) + absolute3(arm), isect);
+}
+
+/// The interaction for the closest hit of a ray.
+SurfaceInteraction interactionAt(Traversal hit, vec3 org, vec3 dir)
+{
+    Primitive shape = loadPrimitive(hit.slot);
+    SurfaceInteraction isect;
+    isect.material = shape.material;
+    if (shape.shape == SHAPE_SPHERE) {
+        sphereInteraction(shape, hit, org, dir, isect);
+    } else {
+        triangleInteraction(shape, hit, dir, isect);
     }
     return isect;
 }
 
-/// Where a ray that leaves in direction wi must start so that it cannot hit its own triangle.
+/// The normal for mirror directions: the shading normal, where it faces the ray as it should.
+vec3 mirrorNormal(SurfaceInteraction isect, vec3 dir)
+{
+    return dot3(isect.ns, dir) < 0.0f ? isect.ns : isect.ng;
+}
+
+/// Where a ray that leaves in direction wi must start so that it cannot hit its own surface.
 vec3 offsetOrigin(SurfaceInteraction isect, vec3 wi)
 {
     float side = dot3(wi, isect.ng) < 0.0f ? -isect.pError : isect.pError;

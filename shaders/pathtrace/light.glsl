@@ -14,7 +14,7 @@ float spotFalloff(Light light, float cosine)
     if (!(cosine > light.cosOuter)) return 0.0f;
     if (cosine >= light.cosInner) return 1.0f;
     float t = quotient(cosine - light.cosOuter, light.cosInner - light.cosOuter);
-    return t * t * (3.0f - 2.0f * t);
+    return t * t * (3.0f - t * 2.0f);
 }
 
 /// Chooses one light; all are as likely.

@@ -3,9 +3,10 @@
 
 CONST float INV_PI = 0.318309886f;
 
-float quotient(float a, float b) { return a / b; }
+/// a / b and the square root, correctly rounded: by the device itself where it is known to do that.
+float quotient(float a, float b) { return EXACT_MATH ? exactQuotient(a, b, 0) : a / b; }
 
-float root(float x) { return sqrt(x); }
+float root(float x) { return EXACT_MATH ? exactRoot(x, 0) : sqrt(x); }
 
 // Own selects: built-in min, max and abs differ between compilers in the sign of zero.
 float min2(float a, float b) { return b < a ? b : a; }

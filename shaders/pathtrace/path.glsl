@@ -85,7 +85,7 @@ void seeEnvironment(INOUT(PathState) path)
 uint shadeSurface(Traversal hit, INOUT(PathState) path)
 {
     tally.bounces++;
-    SurfaceInteraction isect = interactionAt(hit, path.dir);
+    SurfaceInteraction isect = interactionAt(hit, path.org, path.dir);
     Material material = loadMaterial(isect.material);
     path.L = path.L + path.beta * material.emission;
     path.phase = PHASE_ENDED;

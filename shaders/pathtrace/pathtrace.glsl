@@ -1,5 +1,5 @@
 // The path tracer, in the order in which a path meets its parts. The includer provides the buffers
-// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, TRAVERSAL_ORDER and the macros OUT and INOUT.
+// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, TRAVERSAL_ORDER, EXACT_MATH and the macros OUT and INOUT.
 
 // Invocation-wide state.
 struct Tally
@@ -18,6 +18,7 @@ uint stack[STACK_SIZE];  // references still to visit
 
 CONST float RAY_INFINITY = 3.0e38f;
 
+#include "pathtrace/exact.glsl"
 #include "pathtrace/math.glsl"
 #include "pathtrace/rng.glsl"
 #include "pathtrace/sampling.glsl"

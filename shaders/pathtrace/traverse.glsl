@@ -1,7 +1,7 @@
 // The plain traversal of the tree, which every tuned one must equal.
 //
-// The hit does not depend on the order of visits: a triangle's distance is never taken to be smaller
-// than the entry into the triangle's own box, computed by the same function as for every other box.
+// The hit does not depend on the order of visits: a primitive's distance is never taken to be smaller
+// than the entry into the primitive's own box, computed by the same function as for every other box.
 // Rounding is monotone, so a box that encloses another is never entered later; hence a subtree whose
 // box is entered behind the closest hit holds nothing closer. Equal distances go to the smallest
 // primitive number.
@@ -46,7 +46,7 @@ Traversal beginTraversal(float tMax)
     walk.ref = frame.rootRef;
     walk.stackSize = 0u;
     walk.slot = NO_HIT;
-    walk.primitive = NO_HIT;
+    walk.number = NO_HIT;
     walk.tHit = tMax;
     walk.b1 = 0.0f;
     walk.b2 = 0.0f;
@@ -54,28 +54,45 @@ Traversal beginTraversal(float tMax)
     return walk;
 }
 
-/// Tests the triangle in `slot` and keeps it in `walk` when it is the closest so far.
-void visitTriangle(vec3 org, vec3 dir, ShearedRay sheared, BoxRay boxes, uint slot,
-                   INOUT(Traversal) walk)
+/// Corners of the box of a primitive. The host builds the tree from the same boxes.
+void primitiveBox(Primitive shape, OUT(vec3) lo, OUT(vec3) hi)
 {
-    Triangle triangle = loadTriangle(slot);
-    float t;
-    float b1;
-    float b2;
-    if (!intersectTriangle(org, dir, sheared, triangle, t, b1, b2)) return;
+    if (shape.shape == SHAPE_SPHERE) {
+        lo = shape.p0 - vec3(shape.p1.x);
+        hi = shape.p0 + vec3(shape.p1.x);
+        return;
+    }
+    lo = vec3(min2(min2(shape.p0.x, shape.p1.x), shape.p2.x),
+              min2(min2(shape.p0.y, shape.p1.y), shape.p2.y),
+              min2(min2(shape.p0.z, shape.p1.z), shape.p2.z));
+    hi = vec3(max2(max2(shape.p0.x, shape.p1.x), shape.p2.x),
+              max2(max2(shape.p0.y, shape.p1.y), shape.p2.y),
+              max2(max2(shape.p0.z, shape.p1.z), shape.p2.z));
+}
 
-    vec3 lo = vec3(min2(min2(triangle.p0.x, triangle.p1.x), triangle.p2.x),
-                   min2(min2(triangle.p0.y, triangle.p1.y), triangle.p2.y),
-                   min2(min2(triangle.p0.z, triangle.p1.z), triangle.p2.z));
-    vec3 hi = vec3(max2(max2(triangle.p0.x, triangle.p1.x), triangle.p2.x),
-                   max2(max2(triangle.p0.y, triangle.p1.y), triangle.p2.y),
-                   max2(max2(triangle.p0.z, triangle.p1.z), triangle.p2.z));
+/// Tests the primitive in `slot` and keeps it in `walk` when it is the closest so far.
+void visitPrimitive(vec3 org, vec3 dir, ShearedRay sheared, BoxRay boxes, uint slot,
+                    INOUT(Traversal) walk)
+{
+    Primitive shape = loadPrimitive(slot);
+    float t;
+    float b1 = 0.0f;
+    float b2 = 0.0f;
+    if (shape.shape == SHAPE_SPHERE) {
+        if (!intersectSphere(org, dir, shape.p0, shape.p1.x, t)) return;
+    } else {
+        if (!intersectTriangle(org, dir, sheared, shape, t, b1, b2)) return;
+    }
+
+    vec3 lo;
+    vec3 hi;
+    primitiveBox(shape, lo, hi);
     float entry;
     if (!intersectBox(boxes, lo, hi, walk.tHit, entry)) return;
     t = max2(t, entry);
-    if (t < walk.tHit || (t == walk.tHit && triangle.primitive < walk.primitive)) {
+    if (t < walk.tHit || (t == walk.tHit && shape.number < walk.number)) {
         walk.slot = slot;
-        walk.primitive = triangle.primitive;
+        walk.number = shape.number;
         walk.tHit = t;
         walk.b1 = b1;
         walk.b2 = b2;
@@ -138,7 +155,7 @@ bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) walk)
         uint count = (walk.ref & (MAX_LEAF_SIZE - 1u)) + 1u;
         uint i = 0u;
         while (i < count) {
-            visitTriangle(org, dir, sheared, boxes, first + i, walk);
+            visitPrimitive(org, dir, sheared, boxes, first + i, walk);
             i++;
         }
         if (i != count) faults |= FAULT_LOOP_CUT;

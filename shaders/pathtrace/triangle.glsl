@@ -36,7 +36,7 @@ ShearedRay shearRay(vec3 dir)
 /// certain to be in front of the origin. A distance weighted by barycentric coordinates is off by
 /// hundreds of roundings on long triangles; from a normal made of the two shorter edges it is off by
 /// about one rounding of the farthest corner's distance, divided by the cosine between ray and normal.
-float planeDistance(vec3 org, vec3 dir, Triangle triangle)
+float planeDistance(vec3 org, vec3 dir, Primitive triangle)
 {
     vec3 e0 = triangle.p1 - triangle.p0;
     vec3 e1 = triangle.p2 - triangle.p1;
@@ -72,7 +72,7 @@ float planeDistance(vec3 org, vec3 dir, Triangle triangle)
 ///   t       distance [m], larger than its own rounding error; no upper end is applied
 ///   b1, b2  barycentric coordinates of p1 and p2
 /// Returns false for a miss, a degenerate triangle and anything that is not a number.
-bool intersectTriangle(vec3 org, vec3 dir, ShearedRay ray, Triangle triangle, OUT(float) t,
+bool intersectTriangle(vec3 org, vec3 dir, ShearedRay ray, Primitive triangle, OUT(float) t,
                        OUT(float) b1, OUT(float) b2)
 {
     t = 0.0f;

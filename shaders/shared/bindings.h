@@ -8,7 +8,7 @@ SHARED_BEGIN
 
 // Read-only scene data: texel buffers (RGBA32UI) or storage buffers, see kernels/accessors.glsl.
 SHARED_CONST uint BINDING_NODES = 0u;
-SHARED_CONST uint BINDING_TRIANGLES = 1u;
+SHARED_CONST uint BINDING_PRIMITIVES = 1u;
 SHARED_CONST uint BINDING_NORMALS = 2u;
 SHARED_CONST uint BINDING_MATERIALS = 3u;
 SHARED_CONST uint BINDING_LIGHTS = 4u;
@@ -25,6 +25,8 @@ SHARED_CONST uint SPEC_GROUP_WIDTH = 0u;   // workgroup shape [invocations]
 SHARED_CONST uint SPEC_GROUP_HEIGHT = 1u;
 SHARED_CONST uint SPEC_STACK_SIZE = 2u;    // entries, at least the depth of the tree
 SHARED_CONST uint SPEC_ORDER = 3u;         // one of ORDER_*
+SHARED_CONST uint SPEC_EXACT_MATH = 4u;    // 1: division and root made exact (pathtrace/exact.glsl)
+SHARED_CONST uint SPEC_COUNT = 5u;
 
 // Order in which the children of a node are visited. It changes the counters, never a hit.
 SHARED_CONST uint ORDER_NEAR_FIRST = 0u;
