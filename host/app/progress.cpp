@@ -73,7 +73,7 @@ void ProgressPrinter::update(const RenderProgress& progress)
     std::string bar;
     if (room >= 8) {
         int filled = static_cast<int>(progress.fraction * room);
-        bar = "[" + std::string(filled, '#') + std::string(room - filled, ' ') + "] ";
+        bar = fmt::format("[{:<{}}] ", std::string(filled, '#'), room);
     }
     fmt::print(stderr, "\r{}{}\x1b[K", bar, text);
     std::fflush(stderr);

@@ -65,7 +65,7 @@ dvec3 studioRadiance(const dvec3& d)
     // Seen by a camera that looks along -Z: key from the upper left in front, fill from the right,
     // a strip behind the subject, and a large scoop overhead.
     static const std::array<Softbox, 4> boxes = {{
-        {directionTo(-114, 42), 0.60, 0.48, 0.16, dvec3(4.6, 4.2, 3.65)},
+        {directionTo(-114, 46), 0.95, 0.80, 0.28, dvec3(2.35, 2.16, 1.90)},
         {directionTo(112, 22), 0.55, 0.60, 0.25, dvec3(0.35, 0.43, 0.55)},
         {directionTo(28, 38), 0.55, 0.22, 0.12, dvec3(1.1, 1.18, 1.3)},
         {directionTo(180, 80), 0.60, 0.60, 0.30, dvec3(0.35, 0.36, 0.38)},

@@ -48,7 +48,7 @@ endfunction()
 # what the loader offers, and fail if that is nothing.
 function(sahl_device_test name)
     cmake_parse_arguments(ARG "LONG" "" "SOURCES;LINKS" ${ARGN})
-    sahl_test_program(${name} "${ARG_SOURCES}" "${ARG_LINKS}")
+    sahl_test_program(${name} "${ARG_SOURCES};${SAHL_ROOT}/tests/support/driver_leaks.cpp" "${ARG_LINKS}")
     sahl_find_test_drivers(drivers)
     foreach(manifest ${drivers})
         set(driver lavapipe)
