@@ -84,7 +84,7 @@ void printSummary(const RenderOptions& options, const PreparedScene& prepared, c
     const Counters& counters = result.film.counters;
     uint64_t rays = counters.cameraRays + counters.indirectRays + counters.shadowRays;
     fmt::print(stderr, "{} triangles, {} samples, {} rays in {:.1f} s ({:.2f} Msamples/s, {:.2f} Mrays/s)\n",
-               prepared.bvh.triangles.size(), counters.cameraRays, rays, result.seconds,
+               prepared.bvh.primitives.size(), counters.cameraRays, rays, result.seconds,
                double(counters.cameraRays) / std::max(result.seconds, 1e-9) * 1e-6,
                double(rays) / std::max(result.seconds, 1e-9) * 1e-6);
     if (counters.badSamples > 0) {

@@ -36,7 +36,7 @@ inline void grow(Box& box, const Box& other)
     grow(box, other.lo, other.hi);
 }
 
-inline Box boxOf(const Triangle& triangle)
+inline Box boxOf(const Primitive& triangle)
 {
     Box box;
     grow(box, triangle.p0, triangle.p0);

@@ -18,7 +18,7 @@ bool isFinite(const vec3& p)
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-std::vector<Box> boxesOf(std::span<const Triangle> triangles, unsigned threads)
+std::vector<Box> boxesOf(std::span<const Primitive> triangles, unsigned threads)
 {
     std::vector<Box> boxes(triangles.size());
     const size_t chunks = (triangles.size() + CHUNK_SIZE - 1) / CHUNK_SIZE;
@@ -30,26 +30,26 @@ std::vector<Box> boxesOf(std::span<const Triangle> triangles, unsigned threads)
 }
 
 /// A NaN has no place in any order, and an infinite box no area.
-void requireFinite(std::span<const Triangle> triangles)
+void requireFinite(std::span<const Primitive> triangles)
 {
-    for (const Triangle& triangle : triangles) {
+    for (const Primitive& triangle : triangles) {
         if (!isFinite(triangle.p0) || !isFinite(triangle.p1) || !isFinite(triangle.p2)) {
             throw badInput("triangle {} has a corner that is not finite; "
                            "remove it or repair the mesh",
-                           triangle.primitive);
+                           triangle.number);
         }
     }
 }
 
 }  // namespace
 
-Bvh buildBvh(std::span<const Triangle> triangles, BvhBuild build, unsigned threads)
+Bvh buildBvh(std::span<const Primitive> triangles, BvhBuild build, unsigned threads)
 {
     const auto start = std::chrono::steady_clock::now();
-    if (triangles.size() > MAX_TRIANGLES) {
+    if (triangles.size() > MAX_PRIMITIVES) {
         throw badInput("the scene has {} triangles, more than the {} that the tree can number; "
                        "simplify or divide the scene",
-                       triangles.size(), MAX_TRIANGLES);
+                       triangles.size(), MAX_PRIMITIVES);
     }
     if (build == BvhBuild::automatic)
         build = triangles.size() < BINNED_FROM ? BvhBuild::sweep : BvhBuild::binned;

@@ -29,14 +29,14 @@ struct BvhStatistics {
 /// The tree, and the triangles in the order of its leaves.
 struct Bvh {
     std::vector<BvhNode> nodes;
-    std::vector<Triangle> triangles;
+    std::vector<Primitive> primitives;
     uint rootRef = REF_NONE;
     BvhStatistics statistics;
 };
 
 /// Builds the tree. The result depends on the triangles and `build` alone, not on `threads`.
 /// Depth is at most MAX_STACK_SIZE whatever the input (coincident triangles included).
-/// Throws badInput above MAX_TRIANGLES.
-Bvh buildBvh(std::span<const Triangle> triangles, BvhBuild build, unsigned threads);
+/// Throws badInput above MAX_PRIMITIVES.
+Bvh buildBvh(std::span<const Primitive> triangles, BvhBuild build, unsigned threads);
 
 }  // namespace sahl

@@ -34,7 +34,7 @@ constexpr double COST_TRIANGLE = 1.0;
 /// Triangles that fit below a node when at most `levels` inner nodes may follow one another.
 inline uint64_t capacity(uint levels)
 {
-    return levels < 32 ? uint64_t{MAX_LEAF_SIZE} << levels : uint64_t{MAX_TRIANGLES};
+    return levels < 32 ? uint64_t{MAX_LEAF_SIZE} << levels : uint64_t{MAX_PRIMITIVES};
 }
 
 /// A way to divide a range of triangles in two.
@@ -88,6 +88,6 @@ Draft buildSweep(std::span<const Box> boxes, unsigned threads);
 Draft buildBinned(std::span<const Box> boxes, unsigned threads);
 
 /// The tree as the device reads it, with its statistics except `seconds` and `build`.
-Bvh flatten(const Draft& draft, std::span<const Triangle> triangles, std::span<const Box> boxes);
+Bvh flatten(const Draft& draft, std::span<const Primitive> triangles, std::span<const Box> boxes);
 
 }  // namespace sahl

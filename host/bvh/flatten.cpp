@@ -56,7 +56,7 @@ uint64_t countInnerNodes(uint slot, const Draft& draft)
 
 }  // namespace
 
-Bvh flatten(const Draft& draft, std::span<const Triangle> triangles, std::span<const Box> boxes)
+Bvh flatten(const Draft& draft, std::span<const Primitive> triangles, std::span<const Box> boxes)
 {
     Bvh bvh;
     bvh.statistics.innerNodes = countInnerNodes(0, draft);
@@ -67,8 +67,8 @@ Bvh flatten(const Draft& draft, std::span<const Triangle> triangles, std::span<c
     const double area = halfArea(root.box);
     bvh.statistics.sahCost = area > 0 ? (root.boxes + root.triangles) / area : 0;
 
-    bvh.triangles.reserve(triangles.size());
-    for (uint number : draft.order) bvh.triangles.push_back(triangles[number]);
+    bvh.primitives.reserve(triangles.size());
+    for (uint number : draft.order) bvh.primitives.push_back(triangles[number]);
     return bvh;
 }
 

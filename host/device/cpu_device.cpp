@@ -28,7 +28,7 @@ public:
     void setScene(const DeviceScene& scene) override
     {
         scene_ = scene;
-        statistics_.sceneBytes = scene.nodes.size_bytes() + scene.triangles.size_bytes() +
+        statistics_.sceneBytes = scene.nodes.size_bytes() + scene.primitives.size_bytes() +
                                  scene.triangleNormals.size_bytes() + scene.materials.size_bytes() +
                                  scene.lights.size_bytes() + scene.probeTexels.size_bytes();
     }

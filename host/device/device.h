@@ -17,7 +17,7 @@ namespace sahl {
 /// next setScene() or the end of the device: the CPU reads them in place.
 struct DeviceScene {
     std::span<const BvhNode> nodes;
-    std::span<const Triangle> triangles;  ///< in leaf order
+    std::span<const Primitive> primitives;  ///< in leaf order
     std::span<const TriangleNormals> triangleNormals;
     std::span<const Material> materials;
     std::span<const Light> lights;

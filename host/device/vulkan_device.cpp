@@ -125,7 +125,7 @@ void VulkanDevice::preparePipeline(bool texel, uint32_t stackSize)
     request.bindings.resize(BINDING_COUNT, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     request.bindings[BINDING_FRAME] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     request.pushConstantBytes = sizeof(Dispatch);
-    request.specialisation.resize(4);
+    request.specialisation.resize(SPEC_COUNT);
     request.specialisation[SPEC_GROUP_WIDTH] = group_[0];
     request.specialisation[SPEC_GROUP_HEIGHT] = group_[1];
     request.specialisation[SPEC_STACK_SIZE] = stackSize;

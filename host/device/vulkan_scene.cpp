@@ -13,7 +13,7 @@ SceneArrays sceneArrays(const DeviceScene& scene)
 {
     SceneArrays arrays;
     arrays[BINDING_NODES] = std::as_bytes(scene.nodes);
-    arrays[BINDING_TRIANGLES] = std::as_bytes(scene.triangles);
+    arrays[BINDING_PRIMITIVES] = std::as_bytes(scene.primitives);
     arrays[BINDING_NORMALS] = std::as_bytes(scene.triangleNormals);
     arrays[BINDING_MATERIALS] = std::as_bytes(scene.materials);
     arrays[BINDING_LIGHTS] = std::as_bytes(scene.lights);
@@ -25,7 +25,7 @@ SceneArrays sceneArrays(const DeviceScene& scene)
 uint64_t mostStepsPerSample(const DeviceScene& scene)
 {
     uint64_t rays = 2 * (uint64_t{scene.frame.maxBounces} + 2);
-    return rays * (2 * uint64_t{scene.nodes.size()} + scene.triangles.size() + 16);
+    return rays * (2 * uint64_t{scene.nodes.size()} + scene.primitives.size() + 16);
 }
 
 void requireMemory(const PhysicalDevice& device, uint64_t bytes)

@@ -23,9 +23,10 @@ template <uint Order = ORDER_NEAR_FIRST>
 struct Kernel {
     static constexpr uint STACK_SIZE = MAX_STACK_SIZE;
     static constexpr uint TRAVERSAL_ORDER = Order;
+    static constexpr bool EXACT_MATH = false;  // C++ divides and takes roots exactly anyway
 
     std::span<const BvhNode> nodes;
-    std::span<const Triangle> triangles;
+    std::span<const Primitive> primitives;
     std::span<const TriangleNormals> triangleNormals;
     std::span<const Material> materials;
     std::span<const Light> lights;
@@ -33,7 +34,7 @@ struct Kernel {
     Frame frame = {};
 
     const BvhNode& loadNode(uint index) const { return nodes[index]; }
-    const Triangle& loadTriangle(uint index) const { return triangles[index]; }
+    const Primitive& loadPrimitive(uint index) const { return primitives[index]; }
     const TriangleNormals& loadNormals(uint index) const { return triangleNormals[index]; }
     const Material& loadMaterial(uint index) const { return materials[index]; }
     const Light& loadLight(uint index) const { return lights[index]; }

@@ -14,7 +14,7 @@ void renderTileInOrder(const DeviceScene& scene, const TileRequest& tile, unsign
     parallelFor(tile.height, threads, [&](size_t row) {
         Kernel<Order> kernel = {};
         kernel.nodes = scene.nodes;
-        kernel.triangles = scene.triangles;
+        kernel.primitives = scene.primitives;
         kernel.triangleNormals = scene.triangleNormals;
         kernel.materials = scene.materials;
         kernel.lights = scene.lights;

@@ -6,7 +6,7 @@ DeviceScene PreparedScene::deviceScene() const
 {
     DeviceScene view;
     view.nodes = bvh.nodes;
-    view.triangles = bvh.triangles;
+    view.primitives = bvh.primitives;
     view.triangleNormals = scene.triangleNormals;
     view.materials = scene.materials;
     view.lights = scene.lights;
@@ -14,22 +14,23 @@ DeviceScene PreparedScene::deviceScene() const
     view.treeDepth = bvh.statistics.depth;
     view.frame.camera = scene.camera;
     view.frame.probe = scene.probe;
+    view.frame.background = scene.background.value_or(scene.probe);
     view.frame.width = scene.settings.width;
     view.frame.height = scene.settings.height;
     view.frame.seed = scene.settings.seed;
     view.frame.maxBounces = scene.settings.maxBounces;
     view.frame.rootRef = bvh.rootRef;
     view.frame.lightCount = static_cast<uint>(scene.lights.size());
-    view.frame.triangleCount = static_cast<uint>(bvh.triangles.size());
+    view.frame.primitiveCount = static_cast<uint>(bvh.primitives.size());
     return view;
 }
 
 PreparedScene prepareScene(Scene scene, BvhBuild build, unsigned threads)
 {
     PreparedScene prepared;
-    prepared.bvh = buildBvh(scene.triangles, build, threads);
+    prepared.bvh = buildBvh(scene.primitives, build, threads);
     prepared.scene = std::move(scene);
-    prepared.scene.triangles = {};
+    prepared.scene.primitives = {};
     return prepared;
 }
 

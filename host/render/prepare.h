@@ -7,7 +7,7 @@
 
 namespace sahl {
 
-/// A scene with its tree. scene.triangles is empty: they are in bvh.triangles, in leaf order.
+/// A scene with its tree. scene.primitives is empty: they are in bvh.primitives, in leaf order.
 struct PreparedScene {
     Scene scene;
     Bvh bvh;

@@ -69,6 +69,8 @@ Camera makeCamera(const CameraDescription& description, uint32_t width, uint32_t
     camera.forward = toFloat(view.forward);
     camera.right = toFloat(view.right * view.tanX);
     camera.down = toFloat(view.up * -view.tanY);
+    camera.type = CAMERA_PERSPECTIVE;
+    camera.focusDistance = 1;
     return camera;
 }
 
@@ -76,9 +78,9 @@ CameraDescription frameTriangles(const Scene& scene)
 {
     constexpr double MARGIN = 0.9;  // part of the picture that the box may fill
     CameraDescription description;
-    if (scene.triangles.empty()) return description;
-    glm::dvec3 lo(scene.triangles[0].p0), hi = lo;
-    for (const Triangle& t : scene.triangles) {
+    if (scene.primitives.empty()) return description;
+    glm::dvec3 lo(scene.primitives[0].p0), hi = lo;
+    for (const Primitive& t : scene.primitives) {
         for (const vec3& p : {t.p0, t.p1, t.p2}) {
             lo = glm::min(lo, glm::dvec3(p));
             hi = glm::max(hi, glm::dvec3(p));

@@ -96,10 +96,10 @@ std::vector<vec3> mapNormals(const Mesh& mesh, const Transform& transform)
     return mapped;
 }
 
-/// Adds the corner normals and returns their index, or NO_NORMALS when no corner has one.
+/// Adds the corner normals and returns their index, or SHAPE_FLAT when no corner has one.
 uint32_t addNormals(Scene& scene, const std::array<vec3, 3>& corners, const vec3& geometric)
 {
-    if (isZero(corners[0]) && isZero(corners[1]) && isZero(corners[2])) return NO_NORMALS;
+    if (isZero(corners[0]) && isZero(corners[1]) && isZero(corners[2])) return SHAPE_FLAT;
     auto orGeometric = [&](const vec3& n) { return isZero(n) ? geometric : n; };
     auto index = static_cast<uint32_t>(scene.triangleNormals.size());
     scene.triangleNormals.push_back(
@@ -123,7 +123,7 @@ void makeSmoothNormals(Mesh& mesh)
     for (const glm::dvec3& sum : sums) mesh.normals.push_back(unitOrZero(sum));
     for (MeshTriangle& t : mesh.triangles) {
         for (size_t k = 0; k < 3; k++) {
-            if (t.normal[k] == NO_NORMALS) t.normal[k] = base + first[t.position[k]];
+            if (t.normal[k] == SHAPE_FLAT) t.normal[k] = base + first[t.position[k]];
         }
     }
 }
@@ -135,7 +135,7 @@ uint64_t appendMesh(Scene& scene, const Mesh& mesh, const Transform& transform,
     std::vector<vec3> normals = mapNormals(mesh, transform);
     bool mirrors = determinant(transform) < 0;
     uint64_t dropped = 0;
-    scene.triangles.reserve(scene.triangles.size() + mesh.triangles.size());
+    scene.primitives.reserve(scene.primitives.size() + mesh.triangles.size());
     for (const MeshTriangle& t : mesh.triangles) {
         std::array<size_t, 3> order = {0, mirrors ? size_t{2} : size_t{1},
                                        mirrors ? size_t{1} : size_t{2}};
@@ -143,20 +143,20 @@ uint64_t appendMesh(Scene& scene, const Mesh& mesh, const Transform& transform,
         for (size_t k = 0; k < 3; k++) {
             p[k] = positions.at(t.position[order[k]]);
             uint32_t normal = t.normal[order[k]];
-            n[k] = normal == NO_NORMALS ? vec3(0.0f) : normals.at(normal);
+            n[k] = normal == SHAPE_FLAT ? vec3(0.0f) : normals.at(normal);
         }
         if (hasZeroArea(p[0], p[1], p[2])) {
             dropped++;
             continue;
         }
-        if (scene.triangles.size() >= MAX_TRIANGLES) {
-            throw badInput("{}: the scene has more than {} triangles", name, MAX_TRIANGLES);
+        if (scene.primitives.size() >= MAX_PRIMITIVES) {
+            throw badInput("{}: the scene has more than {} triangles", name, MAX_PRIMITIVES);
         }
         vec3 geometric = unitOrZero(doubleAreaVector(p[0], p[1], p[2]));
-        auto primitive = static_cast<uint32_t>(scene.triangles.size());
+        auto primitive = static_cast<uint32_t>(scene.primitives.size());
         uint32_t material = materials[t.material];
         uint32_t normalIndex = addNormals(scene, n, geometric);
-        scene.triangles.push_back({p[0], primitive, p[1], material, p[2], normalIndex});
+        scene.primitives.push_back({p[0], primitive, p[1], material, p[2], normalIndex});
     }
     scene.droppedTriangles += dropped;
     return dropped;
@@ -172,7 +172,12 @@ void appendShape(Scene& scene, const Mesh& mesh, const Transform& transform, uin
 uint32_t addMaterial(Scene& scene, const std::string& name, const vec3& baseColor,
                      const vec3& emission)
 {
-    scene.materials.push_back({baseColor, 0.0f, emission, MATERIAL_LAMBERT});
+    Material material = {};
+    material.baseColor = baseColor;
+    material.eta = 1;
+    material.emission = emission;
+    material.type = MATERIAL_LAMBERT;
+    scene.materials.push_back(material);
     scene.materialNames.push_back(name);
     return static_cast<uint32_t>(scene.materials.size() - 1);
 }

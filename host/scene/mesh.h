@@ -1,4 +1,4 @@
-// Triangle meshes before they become part of a scene: shared corners, in the shape's own space.
+// Primitive meshes before they become part of a scene: shared corners, in the shape's own space.
 #pragma once
 
 #include "scene/scene.h"
@@ -13,7 +13,7 @@ namespace sahl {
 /// Indices into the mesh's arrays. Counter-clockwise seen from the front.
 struct MeshTriangle {
     std::array<uint32_t, 3> position;
-    std::array<uint32_t, 3> normal = {NO_NORMALS, NO_NORMALS, NO_NORMALS};  ///< per corner
+    std::array<uint32_t, 3> normal = {SHAPE_FLAT, SHAPE_FLAT, SHAPE_FLAT};  ///< per corner
     uint32_t material = 0;  ///< index in the mesh's own list of materials
 };
 
@@ -32,7 +32,7 @@ void makeSmoothNormals(Mesh& mesh);
 /// fronts stay fronts. Triangles of zero area are left out, counted in scene.droppedTriangles.
 ///   materials  for each material of the mesh its index in scene.materials
 ///   returns    number of triangles left out
-/// Throws badInput naming `name` when a coordinate overflows or MAX_TRIANGLES is exceeded.
+/// Throws badInput naming `name` when a coordinate overflows or MAX_PRIMITIVES is exceeded.
 uint64_t appendMesh(Scene& scene, const Mesh& mesh, const Transform& transform,
                     std::span<const uint32_t> materials, const std::string& name);
 

@@ -135,7 +135,7 @@ uint32_t readIndex(const ObjReading& reading, const Statement& s, std::string_vi
 
 struct FaceCorner {
     uint32_t position = 0;
-    uint32_t normal = NO_NORMALS;
+    uint32_t normal = SHAPE_FLAT;
 };
 
 /// "7", "7/3", "7//2" or "7/3/2"

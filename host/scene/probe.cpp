@@ -77,7 +77,7 @@ void setProbe(Scene& scene, const Image& picture, uint mapping, uint filter,
         warn(fmt::format("{}: {} values that are negative or not finite became 0", name, replaced));
     }
     if (mapping == PROBE_ANGULAR) fillOutside(texels, picture.width);
-    scene.probe = {picture.width, picture.height, mapping, filter};
+    scene.probe = plainProbe(picture.width, picture.height, mapping, filter);
     scene.probeTexels = std::move(texels);
 }
 

@@ -48,7 +48,7 @@ Scene loadObjScene(const fs::path& path, const SceneOptions& options)
 void warnAboutOddScene(const Scene& scene)
 {
     float largest = 0;
-    for (const Triangle& t : scene.triangles) {
+    for (const Primitive& t : scene.primitives) {
         for (const vec3& p : {t.p0, t.p1, t.p2}) {
             largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         }
@@ -128,7 +128,11 @@ Scene builtInScene(const SceneOptions& options)
     appendShape(scene, makeSphere({-0.95, 1, 0}, 1, 3, true), {}, clay, "left sphere");
     appendShape(scene, makeSphere({1.1, 0.7, 0.6}, 0.7, 3, true), {}, glaze, "right sphere");
     appendShape(scene, makeRectangle({-1.2, 4, -1.2}, {1.6, 0, 0}, {0, 0, 1.6}), {}, lamp, "lamp");
-    scene.lights.push_back({vec3(3.5f, 3.0f, 3.0f), LIGHT_POINT, vec3(6.0f, 6.5f, 7.5f), 0.0f});
+    Light light = {};
+    light.type = LIGHT_POINT;
+    light.position = {3.5f, 3.0f, 3.0f};
+    light.intensity = {6.0f, 6.5f, 7.5f};
+    scene.lights.push_back(light);
     if (options.probe)
         applyProbeOption(scene, options);
     else

@@ -10,6 +10,20 @@
 
 namespace sahl {
 
+/// A probe whose texels begin the buffer, looked up without rotation.
+inline Probe plainProbe(uint32_t width, uint32_t height, uint mapping, uint filterMode)
+{
+    Probe probe = {};
+    probe.width = width;
+    probe.height = height;
+    probe.mapping = mapping;
+    probe.filterMode = filterMode;
+    probe.axisX = {1, 0, 0};
+    probe.axisY = {0, 1, 0};
+    probe.axisZ = {0, 0, 1};
+    return probe;
+}
+
 /// Numbers of the picture that a scene file may set and the command line may override.
 struct RenderSettings {
     uint32_t width = 512;    ///< [pixels]
@@ -20,17 +34,18 @@ struct RenderSettings {
 };
 
 /// Everything a picture is made of, before the tree is built. Triangles are in the order in which
-/// the files gave them; triangles[i].primitive == i.
+/// the files gave them; triangles[i].number == i.
 struct Scene {
     std::string name;  ///< for messages: the file, or "built-in ..."
     RenderSettings settings;
-    std::vector<Triangle> triangles;
+    std::vector<Primitive> primitives;
     std::vector<TriangleNormals> triangleNormals;
     std::vector<Material> materials;
     std::vector<std::string> materialNames;  ///< of materials, for messages
     std::vector<Light> lights;
-    Probe probe = {0, 0, PROBE_LATLONG, FILTER_BILINEAR};
-    std::vector<vec4> probeTexels;
+    Probe probe = plainProbe(0, 0, PROBE_LATLONG, FILTER_BILINEAR);  ///< lights the scene
+    std::optional<Probe> background;  ///< what the camera sees behind the scene, if not the probe
+    std::vector<vec4> probeTexels;    ///< of both
     Camera camera = {};  ///< `right` set for settings.width x settings.height, see makeCamera
     uint64_t droppedTriangles = 0;  ///< of zero area, left out while reading
 };

@@ -66,7 +66,11 @@ void readLight(SceneReading& reading, const JsonNode& node)
     JsonObject light(reading.document, node, "a point light", "pointLight");
     vec3 position = toFloat(light.vector("position", {}));
     vec3 intensity = toFloat(light.vector("intensity", {}, NOT_NEGATIVE));
-    reading.scene.lights.push_back({position, LIGHT_POINT, intensity, 0.0f});
+    Light point = {};
+    point.type = LIGHT_POINT;
+    point.position = position;
+    point.intensity = intensity;
+    reading.scene.lights.push_back(point);
 }
 
 uint filterOf(const JsonObject& environment, const SceneOptions& options)

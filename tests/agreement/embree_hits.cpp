@@ -28,7 +28,7 @@ struct Found {
 /// A scene in Embree, with the flag that makes its triangle test watertight.
 class EmbreeScene {
 public:
-    explicit EmbreeScene(const std::vector<Triangle>& triangles)
+    explicit EmbreeScene(const std::vector<Primitive>& triangles)
         : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_))
     {
         rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
@@ -103,7 +103,7 @@ struct Crossing {
     double rounding;            ///< of a coordinate relative to the origin [m]
 };
 
-Crossing crossing(const Ray& ray, const Triangle& triangle)
+Crossing crossing(const Ray& ray, const Primitive& triangle)
 {
     const glm::dvec3 org(ray.org), dir(ray.dir), p0(triangle.p0), p1(triangle.p1), p2(triangle.p2);
     const glm::dvec3 normal = glm::cross(p1 - p0, p2 - p0);
@@ -125,7 +125,7 @@ Crossing crossing(const Ray& ray, const Triangle& triangle)
 
 /// The nearer of two hits is the one that somebody missed, so that is the one looked at.
 Kind classify(const Ray& ray, const Found& ours, const Found& theirs,
-              const std::vector<Triangle>& triangles)
+              const std::vector<Primitive>& triangles)
 {
     if (ours.primitive == NO_HIT && theirs.primitive == NO_HIT) return AGREE;
     const Found& nearer = ours.t <= theirs.t ? ours : theirs;
@@ -144,7 +144,7 @@ Kind classify(const Ray& ray, const Found& ours, const Found& theirs,
 }
 
 void report(const Ray& ray, const Found& ours, const Found& theirs,
-            const std::vector<Triangle>& triangles)
+            const std::vector<Primitive>& triangles)
 {
     const Found& nearer = ours.t <= theirs.t ? ours : theirs;
     const Crossing at = crossing(ray, triangles[nearer.primitive]);
@@ -155,7 +155,7 @@ void report(const Ray& ray, const Found& ours, const Found& theirs,
                   << ", smallest coordinate " << at.smallestCoordinate;
 }
 
-Counts compare(const std::vector<Triangle>& triangles, const std::vector<Ray>& rays)
+Counts compare(const std::vector<Primitive>& triangles, const std::vector<Ray>& rays)
 {
     const unsigned threads = defaultThreadCount();
     const Bvh bvh = buildBvh(triangles, BvhBuild::sweep, threads);
@@ -170,7 +170,7 @@ Counts compare(const std::vector<Triangle>& triangles, const std::vector<Ray>& r
         for (size_t i = chunk * CHUNK; i < end; i++) {
             const Traversal walk = closestHit(kernel, rays[i]);
             Found ours;
-            if (walk.slot != NO_HIT) ours = {walk.primitive, walk.tHit};
+            if (walk.slot != NO_HIT) ours = {walk.number, walk.tHit};
             const Found theirs = embree.closest(rays[i]);
             const Kind kind = classify(rays[i], ours, theirs, triangles);
             counts.of[kind]++;
@@ -187,7 +187,7 @@ Counts compare(const std::vector<Triangle>& triangles, const std::vector<Ray>& r
     return total;
 }
 
-void expectAgreement(const std::vector<Triangle>& triangles, const std::vector<Ray>& rays)
+void expectAgreement(const std::vector<Primitive>& triangles, const std::vector<Ray>& rays)
 {
     const Counts counts = compare(triangles, rays);
     EXPECT_EQ(counts.of[UNCLASSIFIED], 0u);
@@ -203,8 +203,8 @@ void expectAgreement(const std::vector<Triangle>& triangles, const std::vector<R
 void expectAgreementOn(const char* mesh, size_t count)
 {
     const Scene scene = loadScene(assetFolder() / mesh, {});
-    expectAgreement(scene.triangles, primaryRays(scene.camera, count, 41));
-    expectAgreement(scene.triangles, randomRays(scene.triangles, count, 42));
+    expectAgreement(scene.primitives, primaryRays(scene.camera, count, 41));
+    expectAgreement(scene.primitives, randomRays(scene.primitives, count, 42));
 }
 
 TEST(EmbreeHits, bunny_everyDisagreementIsRounding)
@@ -221,7 +221,7 @@ TEST(EmbreeHits, sponza_everyDisagreementIsRounding)
 
 TEST(EmbreeHits, soup_everyDisagreementIsRounding)
 {
-    const std::vector<Triangle> soup = randomSoup(2000, 0.2f, 43);
+    const std::vector<Primitive> soup = randomSoup(2000, 0.2f, 43);
     expectAgreement(soup, randomRays(soup, 50'000, 44));
 }
 

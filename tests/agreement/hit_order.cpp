@@ -21,7 +21,7 @@ struct Hit {
 
 Hit bitsOf(const Traversal& walk)
 {
-    return {walk.primitive, glm::floatBitsToUint(walk.tHit), glm::floatBitsToUint(walk.b1),
+    return {walk.number, glm::floatBitsToUint(walk.tHit), glm::floatBitsToUint(walk.b1),
             glm::floatBitsToUint(walk.b2)};
 }
 
@@ -31,8 +31,8 @@ Traversal bruteForce(reference::Kernel<>& kernel, const Ray& ray)
     Traversal walk = kernel.beginTraversal(reference::Kernel<>::RAY_INFINITY);
     const auto boxes = kernel.makeBoxRay(ray.org, ray.dir);
     const auto sheared = kernel.shearRay(ray.dir);
-    for (uint slot = 0; slot < kernel.triangles.size(); slot++)
-        kernel.visitTriangle(ray.org, ray.dir, sheared, boxes, slot, walk);
+    for (uint slot = 0; slot < kernel.primitives.size(); slot++)
+        kernel.visitPrimitive(ray.org, ray.dir, sheared, boxes, slot, walk);
     return walk;
 }
 
@@ -80,13 +80,13 @@ void compare(const Bvh& scene, const Bvh& sweep, const Bvh& binned, std::span<co
 
 /// Every ray against brute force; at least a tenth must hit something for the test to mean
 /// anything.
-void expectSameBits(const std::vector<Triangle>& triangles, const std::vector<Ray>& rays)
+void expectSameBits(const std::vector<Primitive>& triangles, const std::vector<Ray>& rays)
 {
     const unsigned threads = defaultThreadCount();
     const Bvh sweep = buildBvh(triangles, BvhBuild::sweep, threads);
     const Bvh binned = buildBvh(triangles, BvhBuild::binned, threads);
     Bvh scene;
-    scene.triangles = triangles;
+    scene.primitives = triangles;
     Differences differences;
     constexpr size_t CHUNK = 256;
     parallelFor((rays.size() + CHUNK - 1) / CHUNK, threads, [&](size_t chunk) {
@@ -105,9 +105,9 @@ void expectSameBits(const std::vector<Triangle>& triangles, const std::vector<Ra
 }
 
 /// The teapot of 6320 triangles, moved along x.
-std::vector<Triangle> teapot(float offset = 0)
+std::vector<Primitive> teapot(float offset = 0)
 {
-    std::vector<Triangle> triangles;
+    std::vector<Primitive> triangles;
     const Mesh mesh = makeTeapot(10, false);
     auto corner = [&](uint32_t index) { return mesh.positions[index] + vec3(offset, 0, 0); };
     for (const MeshTriangle& t : mesh.triangles) {
@@ -120,7 +120,7 @@ std::vector<Triangle> teapot(float offset = 0)
 }
 
 /// Half of the rays start anywhere, half come from far outside.
-std::vector<Ray> easyRays(const std::vector<Triangle>& triangles, size_t count)
+std::vector<Ray> easyRays(const std::vector<Primitive>& triangles, size_t count)
 {
     std::vector<Ray> rays = randomRays(triangles, count, 31);
     Random random(32);
@@ -136,8 +136,8 @@ std::vector<Ray> easyRays(const std::vector<Triangle>& triangles, size_t count)
 void expectSameBitsOnBunny(size_t count)
 {
     const Scene bunny = loadScene(assetFolder() / "meshes/miro/bunny.obj", {});
-    expectSameBits(bunny.triangles, easyRays(bunny.triangles, count));
-    expectSameBits(bunny.triangles, hardRays(bunny.triangles, count, 33));
+    expectSameBits(bunny.primitives, easyRays(bunny.primitives, count));
+    expectSameBits(bunny.primitives, hardRays(bunny.primitives, count, 33));
 }
 
 TEST(HitOrder, teapot_sameBitsInEveryOrder)
@@ -157,16 +157,16 @@ TEST(HitOrder, teapotFarFromTheOrigin_sameBitsForHardRays)
 
 TEST(HitOrder, soupOfAllSizes_sameBitsForHardRays)
 {
-    std::vector<Triangle> soup = randomSoup(500, 0.01f, 36);
+    std::vector<Primitive> soup = randomSoup(500, 0.01f, 36);
     for (float size : {0.1f, 1.0f, 100.0f, 10000.0f}) {
-        for (const Triangle& t : randomSoup(200, size, 37)) addTriangle(soup, t.p0, t.p1, t.p2);
+        for (const Primitive& t : randomSoup(200, size, 37)) addTriangle(soup, t.p0, t.p1, t.p2);
     }
     expectSameBits(soup, hardRays(soup, 20'000, 38));
 }
 
 TEST(HitOrder, coincidentTriangles_smallestNumberWins)
 {
-    std::vector<Triangle> triangles;
+    std::vector<Primitive> triangles;
     for (int i = 0; i < 100; i++) addTriangle(triangles, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     std::reverse(triangles.begin(), triangles.end());
     for (BvhBuild build : {BvhBuild::sweep, BvhBuild::binned}) {
@@ -174,8 +174,8 @@ TEST(HitOrder, coincidentTriangles_smallestNumberWins)
         auto left = kernelFor<ORDER_LEFT_FIRST>(bvh);
         auto right = kernelFor<ORDER_RIGHT_FIRST>(bvh);
         const Ray ray = {{0.2f, 0.2f, 1}, {0, 0, -1}};
-        EXPECT_EQ(closestHit(left, ray).primitive, 0u);
-        EXPECT_EQ(closestHit(right, ray).primitive, 0u);
+        EXPECT_EQ(closestHit(left, ray).number, 0u);
+        EXPECT_EQ(closestHit(right, ray).number, 0u);
     }
 }
 

@@ -22,10 +22,10 @@ inline Ray rayTowards(const vec3& org, const glm::dvec3& way)
     return {org, vec3(way / glm::length(way))};
 }
 
-inline Box boxOfAll(std::span<const Triangle> triangles)
+inline Box boxOfAll(std::span<const Primitive> triangles)
 {
     Box box;
-    for (const Triangle& triangle : triangles) grow(box, boxOf(triangle));
+    for (const Primitive& triangle : triangles) grow(box, boxOf(triangle));
     return box;
 }
 
@@ -59,7 +59,7 @@ inline std::vector<Ray> primaryRays(const Camera& camera, size_t count, uint64_t
 }
 
 /// From anywhere in the scene's box, in any direction.
-inline std::vector<Ray> randomRays(std::span<const Triangle> triangles, size_t count, uint64_t seed)
+inline std::vector<Ray> randomRays(std::span<const Primitive> triangles, size_t count, uint64_t seed)
 {
     Random random(seed);
     const Box box = boxOfAll(triangles);
@@ -71,22 +71,22 @@ inline std::vector<Ray> randomRays(std::span<const Triangle> triangles, size_t c
     return rays;
 }
 
-inline vec3 anyCorner(std::span<const Triangle> triangles, Random& random)
+inline vec3 anyCorner(std::span<const Primitive> triangles, Random& random)
 {
-    const Triangle& triangle = triangles[random.below(static_cast<uint>(triangles.size()))];
+    const Primitive& triangle = triangles[random.below(static_cast<uint>(triangles.size()))];
     const uint corner = random.below(3);
     return corner == 0 ? triangle.p0 : corner == 1 ? triangle.p1 : triangle.p2;
 }
 
 /// Where rounding decides: at a corner, from corner to corner, along an edge, along an axis inside
 /// planes of boxes, and nearly inside a triangle's plane. A fifth of each.
-inline std::vector<Ray> hardRays(std::span<const Triangle> triangles, size_t count, uint64_t seed)
+inline std::vector<Ray> hardRays(std::span<const Primitive> triangles, size_t count, uint64_t seed)
 {
     Random random(seed);
     const Box box = boxOfAll(triangles);
     std::vector<Ray> rays;
     while (rays.size() < count) {
-        const Triangle& t = triangles[random.below(static_cast<uint>(triangles.size()))];
+        const Primitive& t = triangles[random.below(static_cast<uint>(triangles.size()))];
         const vec3 corner = anyCorner(triangles, random), other = anyCorner(triangles, random);
         const vec3 inside = pointIn(box, random);
         const glm::dvec3 p(t.p0), e1 = glm::dvec3(t.p1) - p, e2 = glm::dvec3(t.p2) - p;
@@ -129,9 +129,9 @@ reference::Kernel<Order> kernelFor(const Bvh& bvh)
 {
     reference::Kernel<Order> kernel = {};
     kernel.nodes = bvh.nodes;
-    kernel.triangles = bvh.triangles;
+    kernel.primitives = bvh.primitives;
     kernel.frame.rootRef = bvh.rootRef;
-    kernel.frame.triangleCount = static_cast<uint>(bvh.triangles.size());
+    kernel.frame.primitiveCount = static_cast<uint>(bvh.primitives.size());
     return kernel;
 }
 

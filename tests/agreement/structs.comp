@@ -7,7 +7,7 @@
 
 layout(local_size_x = 1) in;
 layout(std430, binding = 0) readonly buffer Nodes { BvhNode nodes[]; };
-layout(std430, binding = 1) readonly buffer Triangles { Triangle triangles[]; };
+layout(std430, binding = 1) readonly buffer Primitives { Primitive primitives[]; };
 layout(std430, binding = 2) readonly buffer Normals { TriangleNormals normals[]; };
 layout(std430, binding = 3) readonly buffer Materials { Material materials[]; };
 layout(std430, binding = 4) readonly buffer Lights { Light lights[]; };
@@ -28,34 +28,43 @@ void put(vec3 value)
     put(value.z);
 }
 
+void put(Probe p)
+{
+    put(p.width); put(p.height); put(p.mapping); put(p.filterMode);
+    put(p.axisX); put(p.firstTexel); put(p.axisY); put(p.unused0); put(p.axisZ); put(p.unused1);
+}
+
 void main()
 {
     // The second element of each array: the stride counts as well.
     BvhNode n = nodes[1];
     put(n.lo0); put(n.ref0); put(n.hi0); put(n.ref1); put(n.lo1); put(n.unused0); put(n.hi1); put(n.unused1);
-    Triangle t = triangles[1];
-    put(t.p0); put(t.primitive); put(t.p1); put(t.material); put(t.p2); put(t.normals);
+    Primitive t = primitives[1];
+    put(t.p0); put(t.number); put(t.p1); put(t.material); put(t.p2); put(t.shape);
     TriangleNormals s = normals[1];
     put(s.n0); put(s.unused0); put(s.n1); put(s.unused1); put(s.n2); put(s.unused2);
     Material m = materials[1];
-    put(m.baseColor); put(m.unused0); put(m.emission); put(m.type);
+    put(m.baseColor); put(m.eta); put(m.emission); put(m.type);
+    put(m.conductorEta); put(m.diffuseWeight); put(m.conductorK); put(m.specularWeight);
     Light l = lights[1];
-    put(l.position); put(l.type); put(l.intensity); put(l.unused0);
+    put(l.position); put(l.type); put(l.intensity); put(l.cosOuter); put(l.direction); put(l.cosInner);
     Frame f = frames[1];
-    put(f.camera.position); put(f.camera.unused0); put(f.camera.right); put(f.camera.unused1);
-    put(f.camera.down); put(f.camera.unused2); put(f.camera.forward); put(f.camera.unused3);
-    put(f.probe.width); put(f.probe.height); put(f.probe.mapping); put(f.probe.filterMode);
+    put(f.camera.position); put(f.camera.type); put(f.camera.right); put(f.camera.focusDistance);
+    put(f.camera.down); put(f.camera.unused0); put(f.camera.forward); put(f.camera.unused1);
+    put(f.camera.lensRight); put(f.camera.unused2); put(f.camera.lensDown); put(f.camera.unused3);
+    put(f.probe);
+    put(f.background);
     put(f.width); put(f.height); put(f.seed); put(f.maxBounces);
-    put(f.rootRef); put(f.lightCount); put(f.triangleCount); put(f.unused0);
+    put(f.rootRef); put(f.lightCount); put(f.primitiveCount); put(f.unused0);
     PixelBlock b = blocks[1];
     put(b.sum); put(b.sumY2); put(b.digest); put(b.samplesDone); put(b.status); put(b.badSamples);
     put(b.indirectRays); put(b.shadowRays); put(b.boxTests); put(b.primitiveTests);
     put(b.bounces); put(b.faults); put(b.unused0); put(b.unused1);
     PathState p = paths[1].path;
     put(p.org); put(p.phase); put(p.dir); put(p.depth); put(p.beta); put(p.pixel); put(p.L); put(p.sampleIndex);
-    put(p.shadowOrg); put(p.shadowTMax); put(p.shadowDir); put(p.digest); put(p.Ld); put(p.hasNext);
+    put(p.shadowOrg); put(p.shadowTMax); put(p.shadowDir); put(p.digest); put(p.Ld); put(p.mediumEta);
     Traversal w = paths[1].traversal;
-    put(w.ref); put(w.stackSize); put(w.slot); put(w.primitive); put(w.tHit); put(w.b1); put(w.b2); put(w.unused0);
+    put(w.ref); put(w.stackSize); put(w.slot); put(w.number); put(w.tHit); put(w.b1); put(w.b2); put(w.unused0);
     put(paths[1].indirectRays); put(paths[1].shadowRays); put(paths[1].boxTests); put(paths[1].primitiveTests);
     put(paths[1].bounces); put(paths[1].unused0); put(paths[1].unused1); put(paths[1].unused2);
     for (uint i = 0u; i < MAX_SUSPENDED_STACK; i++) put(paths[1].stack[i]);

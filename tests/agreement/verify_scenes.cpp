@@ -28,8 +28,8 @@ const Case CASES[] = {{"default", "", "", "latlong"},
 /// Puts Sponza's camera inside: seen from outside, few of its rays bounce.
 void moveInside(Scene& scene)
 {
-    vec3 lo = scene.triangles[0].p0, hi = lo;
-    for (const Triangle& t : scene.triangles) {
+    vec3 lo = scene.primitives[0].p0, hi = lo;
+    for (const Primitive& t : scene.primitives) {
         for (vec3 p : {t.p0, t.p1, t.p2}) {
             lo = glm::min(lo, p);
             hi = glm::max(hi, p);

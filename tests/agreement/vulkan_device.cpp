@@ -108,7 +108,7 @@ TEST_F(VulkanDeviceTest, emptyScene_isTheSkyEverywhere)
     empty.frame = torus_.scene.frame;
     empty.frame.rootRef = REF_NONE;
     empty.frame.lightCount = 0;
-    empty.frame.triangleCount = 0;
+    empty.frame.primitiveCount = 0;
     empty.probeTexels = {&sky, 1};
     auto device = openFirstDevice();
     device->setScene(empty);
@@ -118,7 +118,7 @@ TEST_F(VulkanDeviceTest, emptyScene_isTheSkyEverywhere)
         EXPECT_EQ(block.sum.x, 4 * 0.25f);
         EXPECT_EQ(block.sum.z, 4 * 1.0f);
     }
-    empty.frame.probe.height = 0;  // no sky, and not a single array
+    empty.frame.background.height = 0;  // no sky, and not a single array
     empty.probeTexels = {};
     device->setScene(empty);
     device->render(tile_, blocks);

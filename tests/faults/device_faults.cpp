@@ -144,7 +144,7 @@ TEST_F(DeviceFaults, smallHeap_isRefusedWithNumbersBeforeAnyAllocation)
 
 TEST_F(DeviceFaults, heapFilledByTheScene_isRefusedForTheTileWithNumbers)
 {
-    uint64_t scene = torus_.scene.nodes.size_bytes() + torus_.scene.triangles.size_bytes();
+    uint64_t scene = torus_.scene.nodes.size_bytes() + torus_.scene.primitives.size_bytes();
     hooks_.changeMemory = [&](VkPhysicalDeviceMemoryProperties& memory) {
         memory.memoryHeaps[0].size = scene + 4096;
     };

@@ -14,11 +14,11 @@ using namespace sahl::testing;
 /// Checks what every later stage relies on.
 void expectSound(const Scene& scene)
 {
-    for (size_t i = 0; i < scene.triangles.size(); i++) {
-        const Triangle& t = scene.triangles[i];
-        ASSERT_EQ(t.primitive, i);
+    for (size_t i = 0; i < scene.primitives.size(); i++) {
+        const Primitive& t = scene.primitives[i];
+        ASSERT_EQ(t.number, i);
         ASSERT_LT(t.material, scene.materials.size());
-        ASSERT_TRUE(t.normals == NO_NORMALS || t.normals < scene.triangleNormals.size());
+        ASSERT_TRUE(t.shape == SHAPE_FLAT || t.shape < scene.triangleNormals.size());
         for (const vec3& p : {t.p0, t.p1, t.p2}) {
             ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
         }

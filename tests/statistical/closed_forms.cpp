@@ -36,7 +36,7 @@ void setCamera(Scene& scene, glm::dvec3 eye, glm::dvec3 lookAt, double fovDeg)
 template <class F>
 void setProbe(Scene& scene, uint32_t rows, F f)
 {
-    scene.probe = {1, rows, PROBE_LATLONG, FILTER_NEAREST};
+    scene.probe = plainProbe(1, rows, PROBE_LATLONG, FILTER_NEAREST);
     for (uint32_t row = 0; row < rows; row++) {
         double y = std::cos(std::numbers::pi * (row + 0.5) / rows);
         scene.probeTexels.emplace_back(vec3(static_cast<float>(f(y))), 0);

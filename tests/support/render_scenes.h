@@ -27,13 +27,13 @@ inline void addBox(Scene& scene, vec3 centre, float halfSide)
         return centre + halfSide * vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
     };
     for (auto& face : faces) {
-        Triangle triangle = {};
+        Primitive triangle = {};
         triangle.p0 = corner(face[0]);
         triangle.p1 = corner(face[1]);
         triangle.p2 = corner(face[2]);
-        triangle.primitive = static_cast<uint>(scene.triangles.size());
-        triangle.normals = NO_NORMALS;
-        scene.triangles.push_back(triangle);
+        triangle.number = static_cast<uint>(scene.primitives.size());
+        triangle.shape = SHAPE_FLAT;
+        scene.primitives.push_back(triangle);
     }
 }
 

@@ -37,17 +37,17 @@ private:
     uint64_t state_;
 };
 
-inline void addTriangle(std::vector<Triangle>& triangles, vec3 p0, vec3 p1, vec3 p2)
+inline void addTriangle(std::vector<Primitive>& triangles, vec3 p0, vec3 p1, vec3 p2)
 {
     uint number = static_cast<uint>(triangles.size());
-    triangles.push_back({p0, number, p1, 0, p2, NO_NORMALS});
+    triangles.push_back({p0, number, p1, 0, p2, SHAPE_FLAT});
 }
 
 /// `count` triangles of about `size`, anywhere in the cube of half edge 1.
-inline std::vector<Triangle> randomSoup(uint count, float size, uint64_t seed)
+inline std::vector<Primitive> randomSoup(uint count, float size, uint64_t seed)
 {
     Random random(seed);
-    std::vector<Triangle> triangles;
+    std::vector<Primitive> triangles;
     for (uint i = 0; i < count; i++) {
         vec3 p = random.inCube(1.0f);
         vec3 e1 = random.inCube(size);
@@ -58,7 +58,7 @@ inline std::vector<Triangle> randomSoup(uint count, float size, uint64_t seed)
 
 /// A closed wavy torus of 2 * rings * sides triangles that share their corners, like a scanned
 /// mesh.
-inline std::vector<Triangle> torus(uint rings, uint sides)
+inline std::vector<Primitive> torus(uint rings, uint sides)
 {
     auto corner = [&](uint ring, uint side) {
         double u = 2 * M_PI * (ring % rings) / rings, v = 2 * M_PI * (side % sides) / sides;
@@ -67,7 +67,7 @@ inline std::vector<Triangle> torus(uint rings, uint sides)
         return vec3(static_cast<float>(x), static_cast<float>(r * std::sin(v)),
                     static_cast<float>(z));
     };
-    std::vector<Triangle> triangles;
+    std::vector<Primitive> triangles;
     for (uint ring = 0; ring < rings; ring++) {
         for (uint side = 0; side < sides; side++) {
             vec3 a = corner(ring, side), b = corner(ring + 1, side);

@@ -2,6 +2,7 @@
 // the CPU renders them.
 #pragma once
 
+#include "scene/scene.h"
 #include "bvh/bvh.h"
 #include "device/device.h"
 #include "support/soups.h"
@@ -26,16 +27,17 @@ public:
         frame.camera.right = vec3(0.6f, 0, 0);
         frame.camera.down = vec3(0, -0.5f, -0.3f);
         frame.camera.forward = vec3(0, -0.447f, 0.894f);
-        frame.probe = {1, 1, PROBE_LATLONG, FILTER_NEAREST};
+        frame.probe = plainProbe(1, 1, PROBE_LATLONG, FILTER_NEAREST);
+        frame.background = frame.probe;
         frame.width = WIDTH;
         frame.height = HEIGHT;
         frame.seed = seed;
         frame.maxBounces = 5;
         frame.rootRef = bvh_.rootRef;
         frame.lightCount = 1;
-        frame.triangleCount = static_cast<uint>(bvh_.triangles.size());
+        frame.primitiveCount = static_cast<uint>(bvh_.primitives.size());
         scene.nodes = bvh_.nodes;
-        scene.triangles = bvh_.triangles;
+        scene.primitives = bvh_.primitives;
         scene.materials = {&material_, 1};
         scene.lights = {&light_, 1};
         scene.probeTexels = {&sky_, 1};

@@ -13,15 +13,15 @@ namespace {
 
 using testing::randomSoup;
 
-Box boxOfAll(const std::vector<Triangle>& triangles)
+Box boxOfAll(const std::vector<Primitive>& triangles)
 {
     Box box;
-    for (const Triangle& t : triangles) grow(box, boxOf(t));
+    for (const Primitive& t : triangles) grow(box, boxOf(t));
     return box;
 }
 
 /// Half areas times triangles of the two sides when the `k` first along an axis go left.
-double splitCost(std::vector<Triangle> triangles, int axis, uint k)
+double splitCost(std::vector<Primitive> triangles, int axis, uint k)
 {
     std::stable_sort(triangles.begin(), triangles.end(), [&](const auto& a, const auto& b) {
         return doubleCentre(boxOf(a), axis) < doubleCentre(boxOf(b), axis);
@@ -41,7 +41,7 @@ uint trianglesBelow(const Bvh& bvh, uint ref)
 TEST(BvhQuality, sweep_takesTheBestOfAllSplits)
 {
     for (uint64_t seed = 0; seed < 50; seed++) {
-        const std::vector<Triangle> triangles = randomSoup(12, 0.3f, seed);
+        const std::vector<Primitive> triangles = randomSoup(12, 0.3f, seed);
         double best = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; axis++)
             for (uint k = 1; k < 12; k++) best = std::min(best, splitCost(triangles, axis, k));
@@ -65,12 +65,12 @@ double builderCost(const Bvh& bvh, uint ref, const Box& box)
 }
 
 /// The cheapest of all binary trees over up to 10 triangles: every division of every subset.
-double cheapestTree(const std::vector<Triangle>& triangles)
+double cheapestTree(const std::vector<Primitive>& triangles)
 {
     const uint all = (1u << triangles.size()) - 1;
     std::vector<double> cheapest(all + 1);
     for (uint set = 1; set <= all; set++) {
-        std::vector<Triangle> members;
+        std::vector<Primitive> members;
         for (uint i = 0; i < triangles.size(); i++)
             if (set >> i & 1) members.push_back(triangles[i]);
         const double area = halfArea(boxOfAll(members));
@@ -88,7 +88,7 @@ TEST(BvhQuality, sweep_isCloseToTheBestOfAllTrees)
 {
     double total = 0, best = 0;
     for (uint64_t seed = 100; seed < 120; seed++) {
-        const std::vector<Triangle> triangles = randomSoup(9, 0.3f, seed);
+        const std::vector<Primitive> triangles = randomSoup(9, 0.3f, seed);
         const Bvh bvh = buildBvh(triangles, BvhBuild::sweep, 1);
         const double cost = builderCost(bvh, bvh.rootRef, boxOfAll(triangles));
         const double cheapest = cheapestTree(triangles);
@@ -101,10 +101,10 @@ TEST(BvhQuality, sweep_isCloseToTheBestOfAllTrees)
 
 /// Cost of dividing by number at the median of the longest axis, down to 4 triangles: what a
 /// builder without the heuristic would do. In box and triangle tests, not yet per root area.
-double medianCost(std::span<Triangle> triangles)
+double medianCost(std::span<Primitive> triangles)
 {
     Box box;
-    for (const Triangle& t : triangles) grow(box, boxOf(t));
+    for (const Primitive& t : triangles) grow(box, boxOf(t));
     const double area = halfArea(box);
     if (triangles.size() <= 4) return area * static_cast<double>(triangles.size());
     const vec3 extent = box.hi - box.lo;
@@ -119,7 +119,7 @@ double medianCost(std::span<Triangle> triangles)
     return 2 * area + medianCost(triangles.first(half)) + medianCost(triangles.subspan(half));
 }
 
-void expectRanking(std::vector<Triangle> triangles)
+void expectRanking(std::vector<Primitive> triangles)
 {
     const double sweep = buildBvh(triangles, BvhBuild::sweep, 2).statistics.sahCost;
     const double binned = buildBvh(triangles, BvhBuild::binned, 2).statistics.sahCost;
@@ -147,9 +147,9 @@ TEST(BvhQuality, heuristic_beatsMedianSplitsOnAMesh)
 
 TEST(BvhQuality, heuristic_beatsMedianSplitsWhenSizesDiffer)
 {
-    std::vector<Triangle> triangles = testing::torus(100, 40);  // teapot in a stadium
-    for (Triangle& t : triangles) t.p0 *= 0.01f, t.p1 *= 0.01f, t.p2 *= 0.01f;
-    for (const Triangle& t : randomSoup(2000, 1.0f, 12))
+    std::vector<Primitive> triangles = testing::torus(100, 40);  // teapot in a stadium
+    for (Primitive& t : triangles) t.p0 *= 0.01f, t.p1 *= 0.01f, t.p2 *= 0.01f;
+    for (const Primitive& t : randomSoup(2000, 1.0f, 12))
         testing::addTriangle(triangles, t.p0 * 10.0f, t.p1 * 10.0f, t.p2 * 10.0f);
     expectRanking(triangles);
 }
@@ -157,7 +157,7 @@ TEST(BvhQuality, heuristic_beatsMedianSplitsWhenSizesDiffer)
 /// The statistic against its definition, summed here from the finished tree.
 TEST(BvhQuality, sahCost_isWhatTheTreeCosts)
 {
-    const std::vector<Triangle> triangles = randomSoup(500, 0.1f, 13);
+    const std::vector<Primitive> triangles = randomSoup(500, 0.1f, 13);
     const Bvh bvh = buildBvh(triangles, BvhBuild::sweep, 1);
     const Box root = boxOfAll(triangles);
     double tests = 2 * halfArea(root);

@@ -19,20 +19,20 @@ using testing::randomSoup;
 
 struct Named {
     const char* name;
-    std::vector<Triangle> triangles;
+    std::vector<Primitive> triangles;
 };
 
-std::vector<Triangle> coincident(uint count)
+std::vector<Primitive> coincident(uint count)
 {
-    std::vector<Triangle> triangles;
+    std::vector<Primitive> triangles;
     for (uint i = 0; i < count; i++) addTriangle(triangles, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     return triangles;
 }
 
 /// All centres equal, all sizes different.
-std::vector<Triangle> nested(uint count)
+std::vector<Primitive> nested(uint count)
 {
-    std::vector<Triangle> triangles;
+    std::vector<Primitive> triangles;
     for (uint i = 1; i <= count; i++) {
         float s = static_cast<float>(i);
         addTriangle(triangles, {-s, -s, 0}, {s, -s, 0}, {0, s, 0});
@@ -42,9 +42,9 @@ std::vector<Triangle> nested(uint count)
 
 /// Every triangle twice as far away and twice as large as the one before: the heuristic likes to
 /// split off one at a time.
-std::vector<Triangle> doubling(uint count)
+std::vector<Primitive> doubling(uint count)
 {
-    std::vector<Triangle> triangles;
+    std::vector<Primitive> triangles;
     for (uint i = 0; i < count; i++) {
         float s = std::ldexp(1.0f, static_cast<int>(i % 240) - 120);
         addTriangle(triangles, {s, 0, 0}, {s, s, 0}, {s, 0, s});
@@ -53,9 +53,9 @@ std::vector<Triangle> doubling(uint count)
 }
 
 /// Corners on one line, so that every box has no area.
-std::vector<Triangle> line(uint count)
+std::vector<Primitive> line(uint count)
 {
-    std::vector<Triangle> triangles;
+    std::vector<Primitive> triangles;
     for (uint i = 0; i < count; i++) {
         float x = static_cast<float>(i);
         addTriangle(triangles, {x, 0, 0}, {x + 0.5f, 0, 0}, {x + 0.25f, 0, 0});
@@ -63,9 +63,9 @@ std::vector<Triangle> line(uint count)
     return triangles;
 }
 
-std::vector<Triangle> scaled(std::vector<Triangle> triangles, float factor)
+std::vector<Primitive> scaled(std::vector<Primitive> triangles, float factor)
 {
-    for (Triangle& t : triangles) {
+    for (Primitive& t : triangles) {
         t.p0 *= factor;
         t.p1 *= factor;
         t.p2 *= factor;
@@ -74,7 +74,7 @@ std::vector<Triangle> scaled(std::vector<Triangle> triangles, float factor)
 }
 
 /// Coordinates over all of float, up to the largest of both signs.
-std::vector<Triangle> extremes(uint count)
+std::vector<Primitive> extremes(uint count)
 {
     Random random(3);
     auto coordinate = [&] {
@@ -86,7 +86,7 @@ std::vector<Triangle> extremes(uint count)
         float x = coordinate(), y = coordinate();
         return vec3(x, y, coordinate());
     };
-    std::vector<Triangle> triangles;
+    std::vector<Primitive> triangles;
     for (uint i = 0; i < count; i++) {
         vec3 p0 = corner(), p1 = corner();
         addTriangle(triangles, p0, p1, corner());
@@ -96,7 +96,7 @@ std::vector<Triangle> extremes(uint count)
 
 std::vector<Named> nastyInputs()
 {
-    std::vector<Triangle> oneFarAway = randomSoup(3000, 0.01f, 2);
+    std::vector<Primitive> oneFarAway = randomSoup(3000, 0.01f, 2);
     addTriangle(oneFarAway, {1e30f, 0, 0}, {1e30f, 1, 0}, {1e30f, 0, 1});
     return {{"one triangle", randomSoup(1, 0.1f, 1)},
             {"two triangles", randomSoup(2, 0.1f, 1)},
@@ -117,7 +117,7 @@ std::vector<Named> nastyInputs()
 /// Walks a tree and checks it on the way.
 class Walk {
 public:
-    explicit Walk(const Bvh& tree) : bvh_(tree), seen_(tree.triangles.size(), 0) {}
+    explicit Walk(const Bvh& tree) : bvh_(tree), seen_(tree.primitives.size(), 0) {}
 
     /// Returns the exact box of everything below `ref`, which has `above` inner nodes above it.
     Box visit(uint ref, uint above)
@@ -158,7 +158,7 @@ private:
         Box box;
         for (uint i = first; i < first + count; i++) {
             seen_.at(i)++;
-            for (const vec3& p : {bvh_.triangles[i].p0, bvh_.triangles[i].p1, bvh_.triangles[i].p2})
+            for (const vec3& p : {bvh_.primitives[i].p0, bvh_.primitives[i].p1, bvh_.primitives[i].p2})
                 grow(box, p, p);
         }
         return box;
@@ -168,21 +168,21 @@ private:
     std::vector<int> seen_;
 };
 
-std::vector<uint> sortedPrimitives(const std::vector<Triangle>& triangles)
+std::vector<uint> sortedPrimitives(const std::vector<Primitive>& triangles)
 {
     std::vector<uint> primitives;
-    for (const Triangle& t : triangles) primitives.push_back(t.primitive);
+    for (const Primitive& t : triangles) primitives.push_back(t.number);
     std::sort(primitives.begin(), primitives.end());
     return primitives;
 }
 
-void expectSound(const std::vector<Triangle>& triangles, BvhBuild build)
+void expectSound(const std::vector<Primitive>& triangles, BvhBuild build)
 {
     const Bvh bvh = buildBvh(triangles, build, 2);
-    ASSERT_EQ(bvh.triangles.size(), triangles.size());
-    EXPECT_EQ(sortedPrimitives(bvh.triangles), sortedPrimitives(triangles));
-    for (const Triangle& t : bvh.triangles)
-        ASSERT_EQ(std::memcmp(&t, &triangles[t.primitive], sizeof t), 0);
+    ASSERT_EQ(bvh.primitives.size(), triangles.size());
+    EXPECT_EQ(sortedPrimitives(bvh.primitives), sortedPrimitives(triangles));
+    for (const Primitive& t : bvh.primitives)
+        ASSERT_EQ(std::memcmp(&t, &triangles[t.number], sizeof t), 0);
     Walk walk(bvh);
     walk.visit(bvh.rootRef, 0);
     EXPECT_TRUE(walk.everyTriangleOnce());
@@ -220,7 +220,7 @@ bool sameBits(const Bvh& a, const Bvh& b)
         return x.size() == y.size() &&
                (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof x[0]) == 0);
     };
-    return a.rootRef == b.rootRef && same(a.nodes, b.nodes) && same(a.triangles, b.triangles);
+    return a.rootRef == b.rootRef && same(a.nodes, b.nodes) && same(a.primitives, b.primitives);
 }
 
 TEST(Bvh, threads_doNotChangeTheBits)
@@ -260,7 +260,7 @@ TEST(Bvh, noTriangles_makeNoTree)
         const Bvh bvh = buildBvh({}, build, 2);
         EXPECT_EQ(bvh.rootRef, REF_NONE);
         EXPECT_TRUE(bvh.nodes.empty());
-        EXPECT_TRUE(bvh.triangles.empty());
+        EXPECT_TRUE(bvh.primitives.empty());
         EXPECT_EQ(bvh.statistics.leaves, 0u);
         EXPECT_EQ(bvh.statistics.sahCost, 0);
     }
@@ -277,7 +277,7 @@ TEST(Bvh, oneTriangle_isALeaf)
 
 TEST(Bvh, twoTriangles_areALeafWhenTogetherAndANodeWhenApart)
 {
-    std::vector<Triangle> together, apart;
+    std::vector<Primitive> together, apart;
     addTriangle(together, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     addTriangle(together, {1, 1, 0}, {1, 0, 0}, {0, 1, 0});
     addTriangle(apart, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
@@ -306,7 +306,7 @@ TEST(Bvh, refusesCornersThatAreNotFinite)
 {
     for (float bad :
          {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
-        std::vector<Triangle> triangles = randomSoup(20, 0.1f, 1);
+        std::vector<Primitive> triangles = randomSoup(20, 0.1f, 1);
         triangles[7].p1.y = bad;
         try {
             buildBvh(triangles, BvhBuild::sweep, 1);

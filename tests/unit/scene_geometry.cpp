@@ -118,7 +118,7 @@ TEST(CameraTest, framedTrianglesLieInsideThePicture)
                    std::vector<uint32_t>{0}, "teapot");
         const Camera camera = makeCamera(frameTriangles(scene), width, height);
         double largest = 0;
-        for (const Triangle& t : scene.triangles) {
+        for (const Primitive& t : scene.primitives) {
             const vec3 p = t.p0 - camera.position;
             const float depth = glm::dot(p, camera.forward);
             ASSERT_GT(depth, 0);
@@ -150,7 +150,7 @@ Mesh slopingTriangle()
     return mesh;
 }
 
-vec3 facetNormal(const Triangle& t)
+vec3 facetNormal(const Primitive& t)
 {
     return glm::normalize(glm::cross(t.p1 - t.p0, t.p2 - t.p0));
 }
@@ -160,7 +160,7 @@ TEST(AppendMesh, normalsStayPerpendicularUnderNonUniformScale)
     Scene scene;
     appendMesh(scene, slopingTriangle(), scaling({3, 1, 1}), std::vector<uint32_t>{0}, "mesh");
     const vec3 n = scene.triangleNormals.at(0).n0;
-    const vec3 facet = facetNormal(scene.triangles.at(0));
+    const vec3 facet = facetNormal(scene.primitives.at(0));
     EXPECT_NEAR(glm::length(n - facet), 0, 1e-6);
     EXPECT_NEAR(n.x * 3, n.y, 1e-6);
 }
@@ -170,9 +170,9 @@ TEST(AppendMesh, mirroringKeepsFrontsInFront)
     Scene scene;
     appendMesh(scene, slopingTriangle(), scaling({-1, 1, 1}), std::vector<uint32_t>{0}, "mesh");
     const vec3 expected = glm::normalize(vec3(-1, 1, 0));
-    EXPECT_NEAR(glm::length(facetNormal(scene.triangles.at(0)) - expected), 0, 1e-6);
+    EXPECT_NEAR(glm::length(facetNormal(scene.primitives.at(0)) - expected), 0, 1e-6);
     EXPECT_NEAR(glm::length(scene.triangleNormals.at(0).n2 - expected), 0, 1e-6);
-    EXPECT_EQ(scene.triangles[0].p0, vec3(-1, 0, 0));
+    EXPECT_EQ(scene.primitives[0].p0, vec3(-1, 0, 0));
 }
 
 TEST(AppendMesh, refusesCoordinatesThatOverflow)
@@ -273,7 +273,7 @@ TEST(Disk, facesItsNormal)
     Scene scene;
     appendShape(scene, makeDisk({0, 1, 0}, {0, 3, 0}, 2, 360), {}, 0, "disk");
     double area = 0;
-    for (const Triangle& t : scene.triangles) {
+    for (const Primitive& t : scene.primitives) {
         area += glm::cross(t.p1 - t.p0, t.p2 - t.p0).y / 2;
         EXPECT_EQ(t.p1.y, 1);
     }
@@ -284,19 +284,19 @@ TEST(Rectangle, facesEdgeUCrossEdgeV)
 {
     Scene scene;
     appendShape(scene, makeRectangle({0, 0, 0}, {2, 0, 0}, {0, 3, 0}), {}, 0, "rectangle");
-    ASSERT_EQ(scene.triangles.size(), 2u);
-    for (const Triangle& t : scene.triangles) EXPECT_EQ(facetNormal(t), vec3(0, 0, 1));
+    ASSERT_EQ(scene.primitives.size(), 2u);
+    for (const Primitive& t : scene.primitives) EXPECT_EQ(facetNormal(t), vec3(0, 0, 1));
 }
 
 TEST(BuiltInScene, isSmallLitAndTheSameEveryTime)
 {
     const Scene scene = builtInScene({});
-    EXPECT_EQ(scene.triangles.size(), 2564u);
+    EXPECT_EQ(scene.primitives.size(), 2564u);
     EXPECT_EQ(scene.lights.size(), 1u);
     EXPECT_GT(scene.probe.height, 0u);
-    for (size_t i = 0; i < scene.triangles.size(); i++) {
-        EXPECT_EQ(scene.triangles[i].primitive, i);
-        EXPECT_LT(scene.triangles[i].material, scene.materials.size());
+    for (size_t i = 0; i < scene.primitives.size(); i++) {
+        EXPECT_EQ(scene.primitives[i].number, i);
+        EXPECT_LT(scene.primitives[i].material, scene.materials.size());
     }
     SceneOptions options;
     options.width = 31;
@@ -311,7 +311,7 @@ TEST(DefaultScene, loadsAndShowsTheWholeTeapot)
     EXPECT_EQ(scene.droppedTriangles, 0u);
     const Camera& camera = scene.camera;
     size_t teapotTriangles = 0;
-    for (const Triangle& t : scene.triangles) {
+    for (const Primitive& t : scene.primitives) {
         if (scene.materialNames.at(t.material) != "clay") continue;
         teapotTriangles++;
         const vec3 p = t.p0 - camera.position;

@@ -23,7 +23,7 @@ TEST(JsonScene, defaultsAreThoseOfTheSchema)
     EXPECT_EQ(scene.settings.spp, 64u);
     EXPECT_EQ(scene.settings.maxBounces, 8u);
     EXPECT_EQ(scene.settings.seed, 0u);
-    EXPECT_TRUE(scene.triangles.empty());
+    EXPECT_TRUE(scene.primitives.empty());
     EXPECT_FLOAT_EQ(scene.camera.right.x, 0.36397023f);  // tan 20 degrees
 }
 
@@ -48,8 +48,8 @@ TEST(JsonScene, readsFilmIntegratorMaterialsAndLights)
     ASSERT_EQ(scene.lights.size(), 1u);
     EXPECT_EQ(scene.lights[0].position, vec3(1, 2, 3));
     EXPECT_EQ(scene.lights[0].intensity, vec3(4, 5, 6));
-    ASSERT_EQ(scene.triangles.size(), 2u);
-    EXPECT_EQ(scene.triangles[1].primitive, 1u);
+    ASSERT_EQ(scene.primitives.size(), 2u);
+    EXPECT_EQ(scene.primitives[1].number, 1u);
     EXPECT_EQ(scene.probe.height, 0u);
 }
 
@@ -79,7 +79,7 @@ TEST(JsonScene, transformsApplyMatrixScaleRotateTranslateInThatOrder)
         "transform": { "translate": [10, 0, 0], "rotateDeg": { "axis": [0, 0, 2], "angle": 90 },
                        "scale": [2, 3, 1], "matrix": [1,0,0,1, 0,1,0,0, 0,0,1,0, 0,0,0,1] } }] })");
     // (0,0,0) -> (1,0,0) -> (2,0,0) -> (0,2,0) -> (10,2,0)
-    const Triangle& t = scene.triangles.at(0);
+    const Primitive& t = scene.primitives.at(0);
     EXPECT_EQ(t.p0, vec3(10, 2, 0));
     EXPECT_EQ(t.p1, vec3(10, 4, 0));
     EXPECT_EQ(t.p2, vec3(7, 2, 0));
@@ -91,7 +91,7 @@ TEST(JsonScene, shapeWithoutMaterialIsGrey)
                                                  { "type": "sphereMesh", "level": 0 }] })");
     ASSERT_EQ(scene.materials.size(), 1u);
     EXPECT_EQ(scene.materials[0].baseColor, vec3(0.7f));
-    EXPECT_EQ(scene.triangles.size(), 40u);
+    EXPECT_EQ(scene.primitives.size(), 40u);
 }
 
 TEST(JsonScene, meshMaterialReplacesThoseOfTheFile)
@@ -104,9 +104,9 @@ TEST(JsonScene, meshMaterialReplacesThoseOfTheFile)
                 R"({ "materials": { "blue": { "type": "lambert", "baseColor": [0, 0, 1] } },
         "shapes": [{ "type": "mesh", "file": "a.obj", "material": "blue" }] })");
     const Scene own = files.load("own.json");
-    EXPECT_EQ(own.materials.at(own.triangles.at(0).material).baseColor, vec3(1, 0, 0));
+    EXPECT_EQ(own.materials.at(own.primitives.at(0).material).baseColor, vec3(1, 0, 0));
     const Scene other = files.load("other.json");
-    EXPECT_EQ(other.materials.at(other.triangles.at(0).material).baseColor, vec3(0, 0, 1));
+    EXPECT_EQ(other.materials.at(other.primitives.at(0).material).baseColor, vec3(0, 0, 1));
 }
 
 TEST(JsonScene, filesOutsideTheFolderNeedPermission)
@@ -120,7 +120,7 @@ TEST(JsonScene, filesOutsideTheFolderNeedPermission)
                     "outside the scene's folder; --allow-path");
     SceneOptions options;
     options.allowedPaths = {files.folder.path / "meshes"};
-    EXPECT_EQ(files.load("scenes/s.json", options).triangles.size(), 1u);
+    EXPECT_EQ(files.load("scenes/s.json", options).primitives.size(), 1u);
 }
 
 TEST(JsonScene, linksOutOfTheFolderAreFollowedBeforeTheCheck)
@@ -139,8 +139,8 @@ TEST(JsonScene, aMeshUsedTwiceIsPlacedTwice)
     files.write("s.json", R"({ "shapes": [{ "type": "mesh", "file": "a.obj" },
         { "type": "mesh", "file": "a.obj", "transform": { "translate": [0, 0, 1] } }] })");
     const Scene scene = files.load("s.json");
-    ASSERT_EQ(scene.triangles.size(), 2u);
-    EXPECT_EQ(scene.triangles[1].p0, vec3(0, 0, 1));
+    ASSERT_EQ(scene.primitives.size(), 2u);
+    EXPECT_EQ(scene.primitives[1].p0, vec3(0, 0, 1));
 }
 
 /// A mistake and what must be said about it.
@@ -333,7 +333,7 @@ TEST(Locale, numbersAreReadAlikeInACommaLocale)
     std::setlocale(LC_NUMERIC, "C");
     std::locale::global(before);
     EXPECT_EQ(scene.camera.position, vec3(0.5f, 1.5f, 2.5f));
-    EXPECT_EQ(scene.triangles.at(0).p0, vec3(0.5f, 0, 0));
+    EXPECT_EQ(scene.primitives.at(0).p0, vec3(0.5f, 0, 0));
     EXPECT_EQ(scene.materials.at(0).baseColor, vec3(0.5f, 0.25f, 0.125f));
     EXPECT_CONTAINS(error, "180.5");
 }

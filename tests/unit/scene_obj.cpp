@@ -13,9 +13,9 @@ const std::string SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 TEST(Obj, readsATriangleWithGreyMaterialStudioAndCamera)
 {
     const Scene scene = loadObj(TRIANGLE + "f 1 2 3\n");
-    ASSERT_EQ(scene.triangles.size(), 1u);
-    EXPECT_EQ(scene.triangles[0].p1, vec3(1, 0, 0));
-    EXPECT_EQ(scene.triangles[0].normals, NO_NORMALS);
+    ASSERT_EQ(scene.primitives.size(), 1u);
+    EXPECT_EQ(scene.primitives[0].p1, vec3(1, 0, 0));
+    EXPECT_EQ(scene.primitives[0].shape, SHAPE_FLAT);
     EXPECT_EQ(scene.materials.at(0).baseColor, vec3(0.7f));
     EXPECT_EQ(scene.probe.width, 256u);
     EXPECT_EQ(scene.probeTexels.size(), 256u * 128u);
@@ -29,8 +29,8 @@ TEST(Obj, readsEveryWayToWriteAFace)
                              "f -3 -2 -1", "f\t1  2\t3 \r", "f 1 \\\n2 3", "f 1/ 2/ 3/", "fo 1 2 3",
                              "f +1 +2 +3", "  f 1 2 3 # comment"}) {
         const Scene scene = loadObj(head + face);
-        ASSERT_EQ(scene.triangles.size(), 1u) << face;
-        EXPECT_EQ(scene.triangles[0].p1, vec3(1, 0, 0)) << face;
+        ASSERT_EQ(scene.primitives.size(), 1u) << face;
+        EXPECT_EQ(scene.primitives[0].p1, vec3(1, 0, 0)) << face;
     }
     const Scene normals = loadObj(head + "f 1//1 2//1 3//-1");
     EXPECT_EQ(normals.triangleNormals.at(0).n0, vec3(0, 0, 1));
@@ -38,13 +38,13 @@ TEST(Obj, readsEveryWayToWriteAFace)
 
 TEST(Obj, facesMayStandBeforeTheirVertices)
 {
-    EXPECT_EQ(loadObj("f 1 2 3\n" + TRIANGLE).triangles.size(), 1u);
+    EXPECT_EQ(loadObj("f 1 2 3\n" + TRIANGLE).primitives.size(), 1u);
 }
 
 TEST(Obj, readsLineEndsOfEverySystemAndAByteOrderMark)
 {
-    EXPECT_EQ(loadObj("\xEF\xBB\xBFv 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3").triangles.size(), 1u);
-    EXPECT_EQ(loadObj("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3").triangles.size(), 1u);
+    EXPECT_EQ(loadObj("\xEF\xBB\xBFv 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3").primitives.size(), 1u);
+    EXPECT_EQ(loadObj("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3").primitives.size(), 1u);
 }
 
 TEST(Obj, numbersAreRoundedCorrectly)
@@ -52,23 +52,23 @@ TEST(Obj, numbersAreRoundedCorrectly)
     // 1 + 2^-24 lies half way between two floats and goes to the even one; a digit more goes up.
     const Scene scene = loadObj("v 1.000000059604644775390625 0 0\n"
                                 "v 1.0000000596046447753906251 +1e-3 .5\nv 5. -1E1 1e-40\nf 1 2 3");
-    EXPECT_EQ(scene.triangles.at(0).p0.x, 1.0f);
-    EXPECT_EQ(scene.triangles.at(0).p1, vec3(0x1.000002p0f, 1e-3f, 0.5f));
-    EXPECT_EQ(scene.triangles.at(0).p2, vec3(5, -10, 0));  // 1e-40 is below 1e-30
+    EXPECT_EQ(scene.primitives.at(0).p0.x, 1.0f);
+    EXPECT_EQ(scene.primitives.at(0).p1, vec3(0x1.000002p0f, 1e-3f, 0.5f));
+    EXPECT_EQ(scene.primitives.at(0).p2, vec3(5, -10, 0));  // 1e-40 is below 1e-30
 }
 
 TEST(Obj, polygonsBecomeTrianglesOfTheSameArea)
 {
-    EXPECT_EQ(loadObj(SQUARE + "f 1 2 3 4").triangles.size(), 2u);
+    EXPECT_EQ(loadObj(SQUARE + "f 1 2 3 4").primitives.size(), 2u);
     // A concave arrow head: a fan around corner 1 would cover the notch.
     const Scene arrow = loadObj("v 0 0 0\nv 4 -2 0\nv 1 0 0\nv 4 2 0\nf 2 3 4 1");
     double area = 0;
-    for (const Triangle& t : arrow.triangles) {
+    for (const Primitive& t : arrow.primitives) {
         const vec3 n = glm::cross(t.p1 - t.p0, t.p2 - t.p0);
         EXPECT_GT(n.z, 0);
         area += n.z / 2;
     }
-    EXPECT_EQ(arrow.triangles.size(), 2u);
+    EXPECT_EQ(arrow.primitives.size(), 2u);
     EXPECT_DOUBLE_EQ(area, 2);
 }
 
@@ -81,7 +81,7 @@ TEST(Obj, meshesOfTheBenchmarkHaveTheirNumbersOfTriangles)
         SAHL_REQUIRE_ASSET(name);
         Scene scene;
         warningsOf([&, file = name] { scene = loadScene(assetFolder() / file, {}); });
-        EXPECT_EQ(scene.triangles.size() + scene.droppedTriangles, count) << name;
+        EXPECT_EQ(scene.primitives.size() + scene.droppedTriangles, count) << name;
     }
 }
 
@@ -92,7 +92,7 @@ TEST(Obj, zeroAreaTrianglesAreLeftOutAndCounted)
         scene = loadObj("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.1 0.1 0.3\nv 0.2 0.2 0.6\nv 0.4 0.4 1.2\n"
                         "f 1 2 3\nf 1 1 2\nf 4 5 6\n");
     });
-    EXPECT_EQ(scene.triangles.size(), 1u);
+    EXPECT_EQ(scene.primitives.size(), 1u);
     EXPECT_EQ(scene.droppedTriangles, 2u);
     EXPECT_CONTAINS(warning, "left out 2 triangles of zero area");
 }

@@ -65,9 +65,9 @@ TEST(Teapot, hasNoDegenerateTrianglesAndNormalsOfTheSurface)
         Scene scene;
         appendMesh(scene, makeTeapot(n, true), {}, std::vector<uint32_t>{0}, "teapot");
         EXPECT_EQ(scene.droppedTriangles, 0u);
-        for (const Triangle& t : scene.triangles) {
+        for (const Primitive& t : scene.primitives) {
             const vec3 facet = glm::normalize(glm::cross(t.p1 - t.p0, t.p2 - t.p0));
-            const TriangleNormals& normals = scene.triangleNormals.at(t.normals);
+            const TriangleNormals& normals = scene.triangleNormals.at(t.shape);
             for (const vec3& normal : {normals.n0, normals.n1, normals.n2}) {
                 EXPECT_NEAR(glm::length(normal), 1, 1e-6);
                 // Smooth normals lie close to the facets once these are small.
@@ -110,8 +110,8 @@ TEST(Teapot, isTheSurfaceThatOthersTessellated)
     warningsOf([&] { theirs = loadScene(assetFolder() / "meshes/teapot_6320.obj", {}); });
     const Mesh ours = makeTeapot(40, false);
     double largest = 0;
-    for (size_t i = 0; i < theirs.triangles.size(); i += 25) {
-        const glm::dvec3 p = theirs.triangles[i].p0;
+    for (size_t i = 0; i < theirs.primitives.size(); i += 25) {
+        const glm::dvec3 p = theirs.primitives[i].p0;
         double nearest2 = std::numeric_limits<double>::max();
         for (const MeshTriangle& t : ours.triangles) {
             const glm::dvec3 d =

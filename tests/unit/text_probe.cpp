@@ -1,6 +1,7 @@
 // Which texel of a probe a direction sees, against formulas in double precision.
 
 #include "reference/kernel.h"
+#include "scene/scene.h"
 
 #include <gtest/gtest.h>
 
@@ -43,7 +44,7 @@ std::vector<dvec3> randomDirections(int count)
 struct ProbeKernel : Kernel<> {
     ProbeKernel(uint mapping, uint filterMode, uint width, uint height)
     {
-        frame.probe = {width, height, mapping, filterMode};
+        frame.probe = plainProbe(width, height, mapping, filterMode);
         for (uint y = 0; y < height; y++) {
             for (uint x = 0; x < width; x++) texels.emplace_back(float(x) + 0.5f, float(y) + 0.5f, 1, 0);
         }
@@ -115,7 +116,7 @@ TEST(EvalProbe, nearestGivesTheTexelThatHoldsThePoint)
             // Points within rounding of a texel's border may go either way.
             dvec2 within = glm::abs(glm::fract(at) - 0.5);
             if (std::max(within.x, within.y) > 0.4999) continue;
-            vec3 texel = kernel.evalProbe(vec3(d));
+            vec3 texel = kernel.evalProbe(kernel.frame.probe, vec3(d));
             EXPECT_EQ(texel.x, float(std::floor(at.x)) + 0.5f);
             EXPECT_EQ(texel.y, float(std::floor(at.y)) + 0.5f);
             compared++;
@@ -135,7 +136,7 @@ TEST(EvalProbe, bilinearInterpolatesBetweenTexelCentres)
             dvec2 at = (mapping == PROBE_LATLONG ? latLong(d) : angular(d)) * dvec2(width, height);
             if (at.x < 0.5 || at.y < 0.5 || at.x > width - 0.5 || at.y > height - 0.5) continue;
             if (mapping == PROBE_ANGULAR && std::hypot(d.x, d.y) < 0.1) continue;
-            vec3 colour = kernel.evalProbe(vec3(d));
+            vec3 colour = kernel.evalProbe(kernel.frame.probe, vec3(d));
             EXPECT_NEAR(colour.x, at.x, 1e-3);
             EXPECT_NEAR(colour.y, at.y, 1e-3);
             EXPECT_NEAR(colour.z, 1, 1e-6);
@@ -151,16 +152,16 @@ TEST(EvalProbe, latLongGoesRoundWithoutASeam)
     for (vec4& texel : kernel.texels) texel = vec4(0);
     for (uint y = 0; y < 4; y++) kernel.texels[y * 8] = vec4(1);  // leftmost column
     // +Z lies on the seam, half way between the last and the first column.
-    EXPECT_NEAR(kernel.evalProbe(vec3(0, 0, 1)).x, 0.5, 1e-5);
-    EXPECT_NEAR(kernel.evalProbe(kernel.unit(vec3(1e-4f, 0, 1))).x, 0.5, 1e-3);
-    EXPECT_NEAR(kernel.evalProbe(kernel.unit(vec3(-1e-4f, 0, 1))).x, 0.5, 1e-3);
+    EXPECT_NEAR(kernel.evalProbe(kernel.frame.probe, vec3(0, 0, 1)).x, 0.5, 1e-5);
+    EXPECT_NEAR(kernel.evalProbe(kernel.frame.probe, kernel.unit(vec3(1e-4f, 0, 1))).x, 0.5, 1e-3);
+    EXPECT_NEAR(kernel.evalProbe(kernel.frame.probe, kernel.unit(vec3(-1e-4f, 0, 1))).x, 0.5, 1e-3);
 }
 
 TEST(EvalProbe, withoutProbeIsBlack)
 {
     Kernel<> kernel;
     kernel.frame.probe = {};
-    EXPECT_EQ(kernel.evalProbe(vec3(0, 0, 1)), vec3(0));
+    EXPECT_EQ(kernel.evalProbe(kernel.frame.probe, vec3(0, 0, 1)), vec3(0));
 }
 
 }  // namespace
