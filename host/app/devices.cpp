@@ -1,7 +1,9 @@
 // sahl devices: what this machine offers.
 
 #include "app/commands.h"
+#include "app/option_kinds.h"
 #include "device/device.h"
+#include "util/messages.h"
 #include "util/parallel.h"
 
 #include <fmt/format.h>
@@ -13,7 +15,8 @@ namespace sahl {
 
 namespace {
 
-nlohmann::ordered_json devicesJson(const std::vector<VulkanDeviceInfo>& devices, const std::string& whyNone)
+nlohmann::ordered_json devicesJson(const std::vector<VulkanDeviceInfo>& devices,
+                                   const std::string& whyNone)
 {
     auto list = nlohmann::ordered_json::array();
     for (const VulkanDeviceInfo& device : devices) {
@@ -32,25 +35,26 @@ nlohmann::ordered_json devicesJson(const std::vector<VulkanDeviceInfo>& devices,
                         {"unusable", device.unusable}});
     }
     DeviceInfo cpu = makeCpuDevice({})->info();
-    return {{"version", 1},
-            {"vulkan", list},
-            {"noVulkan", whyNone},
-            {"cpu", {{"name", cpu.name}, {"driver", cpu.driver}, {"threads", defaultThreadCount()}}}};
+    return {
+        {"version", 1},
+        {"vulkan", list},
+        {"noVulkan", whyNone},
+        {"cpu", {{"name", cpu.name}, {"driver", cpu.driver}, {"threads", defaultThreadCount()}}}};
 }
 
 void printDevices(const std::vector<VulkanDeviceInfo>& devices, const std::string& whyNone)
 {
     for (const VulkanDeviceInfo& device : devices) {
-        fmt::print("{}    {}\n     {}, driver {}, Vulkan {}\n     UUID {}\n"
-                   "     {} MiB, storage buffers to {} MiB, texel buffers to {} elements\n",
-                   device.index, device.name, device.kind, device.driver, device.apiVersion, device.uuid,
-                   device.deviceMemory >> 20, device.maxStorageBufferBytes >> 20,
-                   device.maxTexelBufferElements);
-        if (!device.unusable.empty()) fmt::print("     cannot be used: {}\n", device.unusable);
+        answer("{}    {}\n     {}, driver {}, Vulkan {}\n     UUID {}\n"
+               "     {} MiB, storage buffers to {} MiB, texel buffers to {} elements\n",
+               device.index, device.name, device.kind, device.driver, device.apiVersion,
+               device.uuid, device.deviceMemory >> 20, device.maxStorageBufferBytes >> 20,
+               device.maxTexelBufferElements);
+        if (!device.unusable.empty()) answer("     cannot be used: {}\n", device.unusable);
     }
-    if (!whyNone.empty()) fmt::print("no Vulkan device: {}\n", whyNone);
+    if (!whyNone.empty()) answer("no Vulkan device: {}\n", whyNone);
     DeviceInfo cpu = makeCpuDevice({})->info();
-    fmt::print("cpu  {}\n     the same text compiled by {}\n", cpu.name, cpu.driver);
+    answer("cpu  {}\n     the same text compiled by {}\n", cpu.name, cpu.driver);
 }
 
 }  // namespace
@@ -58,13 +62,17 @@ void printDevices(const std::vector<VulkanDeviceInfo>& devices, const std::strin
 Command addDevicesCommand(CLI::App& app)
 {
     auto json = std::make_shared<bool>(false);
-    CLI::App* command = app.add_subcommand("devices", "list the devices of this machine");
-    command->add_flag("--json", *json, "as JSON on stdout");
+    CLI::App* command =
+        app.add_subcommand("devices", "list the devices of this machine")->group("Commands");
+    addFlag(*command, "--json", *json, "the list as JSON on stdout");
+    command->footer("Examples:\n"
+                    "  sahl devices\n"
+                    "  sahl devices --json");
     return [json] {
         std::string whyNone;
         std::vector<VulkanDeviceInfo> devices = listVulkanDevices(whyNone);
         if (*json) {
-            fmt::print("{}\n", devicesJson(devices, whyNone).dump(2));
+            answer("{}\n", devicesJson(devices, whyNone).dump(2));
         } else {
             printDevices(devices, whyNone);
         }

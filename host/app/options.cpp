@@ -1,19 +1,41 @@
 #include "app/options.h"
 
+#include "app/option_kinds.h"
+#include "film/film.h"
 #include "util/error.h"
+#include "util/memory.h"
+#include "util/messages.h"
 #include "util/parallel.h"
 
 namespace sahl {
 
 namespace {
 
-/// An option for a whole number in [lo, hi]; out of range is a usage error that names the range.
-template <class Target>
-CLI::Option* addNumber(CLI::App& command, const std::string& name, Target& target, int64_t lo, int64_t hi,
-                       const std::string& help)
+const char* const SCENES = "the scene's";
+
+CLI::Option* addPath(CLI::App& command, const std::string& name, std::optional<fs::path>& target,
+                     const std::string& help, const std::string& standard)
 {
-    auto set = [&target](const int64_t& value) { target = static_cast<uint32_t>(value); };
-    return command.add_option_function<int64_t>(name, set, help)->check(CLI::Range(lo, hi))->type_name("N");
+    return command.add_option(name, target, withDefault(help, standard))->type_name("FILE");
+}
+
+void addGroupShape(CLI::App& command, DeviceOptions& device)
+{
+    auto set = [&device](const std::string& text) {
+        size_t cross = text.find('x');
+        if (cross == std::string::npos) {
+            throw CLI::ValidationError(fmt::format("--group '{}' is no shape; give WxH", text));
+        }
+        device.groupWidth = parseNumber("--group", text.substr(0, cross), {1, 1024});
+        device.groupHeight = parseNumber("--group", text.substr(cross + 1), {1, 1024});
+    };
+    std::string standard = fmt::format("{}x{}", device.groupWidth, device.groupHeight);
+    command
+        .add_option_function<std::string>(
+            "--group", set,
+            withDefault("workgroup shape [invocations], each side 1 to 1024", standard))
+        ->type_name("WxH")
+        ->group("Testing");
 }
 
 }  // namespace
@@ -21,66 +43,85 @@ CLI::Option* addNumber(CLI::App& command, const std::string& name, Target& targe
 void addSceneOptions(CLI::App& command, CommonOptions& options)
 {
     SceneOptions& scene = options.scene;
-    addNumber(command, "--width", scene.width, 1, 65536, "picture width [pixels]")->group("Picture");
-    addNumber(command, "--height", scene.height, 1, 65536, "picture height [pixels]")->group("Picture");
-    addNumber(command, "--spp,--samples", scene.spp, 1, 1 << 24, "samples per pixel")->group("Picture");
-    addNumber(command, "--seed", scene.seed, 0, 0xffffffffll, "seed of all random numbers")->group("Picture");
-    addNumber(command, "--max-bounces", scene.maxBounces, 0, 65535,
-              "scatterings after which a path ends")->group("Picture");
+    addNumber(command, "--width", scene.width, {1, 32768}, "picture width [pixels]", SCENES)
+        ->group("Picture");
+    addNumber(command, "--height", scene.height, {1, 32768}, "picture height [pixels]", SCENES)
+        ->group("Picture");
+    addNumber(command, "--spp,--samples", scene.spp, {1, 1 << 24}, "samples per pixel", SCENES)
+        ->group("Picture");
+    addNumber(command, "--seed", scene.seed, {0, 0xffffffff}, "seed of the random numbers", SCENES)
+        ->group("Picture");
+    addNumber(command, "--max-bounces", scene.maxBounces, {0, 65535}, "scatterings of a path",
+              SCENES)
+        ->group("Picture");
 
-    command.add_option("--probe", scene.probe, "light probe instead of the scene's: EXR, HDR or PFM")
-        ->type_name("FILE")->group("Scene");
-    command.add_option("--probe-mapping", scene.probeMapping, "latlong or angular")
-        ->check(CLI::IsMember({"latlong", "angular"}))->type_name("NAME")->group("Scene");
-    command.add_option("--probe-filter", scene.probeFilter, "nearest or bilinear")
-        ->check(CLI::IsMember({"nearest", "bilinear"}))->type_name("NAME")->group("Scene");
-    command.add_flag("--smooth-normals", scene.smoothNormals,
-                     "interpolated normals for meshes that have none")->group("Scene");
-    command.add_option("--allow-path", scene.allowedPaths, "folder outside the scene's own to read files from")
-        ->type_name("DIR")->group("Scene");
-
-    static const std::map<std::string, BvhBuild> builds = {
-        {"auto", BvhBuild::automatic}, {"sweep", BvhBuild::sweep}, {"binned", BvhBuild::binned}};
-    command.add_option("--bvh-build", options.bvhBuild, "auto, sweep (best tree) or binned (fast)")
-        ->transform(CLI::CheckedTransformer(builds))->type_name("NAME")->group("Scene");
+    addPath(command, "--probe", scene.probe, "light probe: EXR, HDR or PFM", SCENES)
+        ->group("Scene");
+    addWord(command, "--probe-mapping", scene.probeMapping, {"latlong", "angular"},
+            "latlong or angular", "the scene's, else latlong")
+        ->group("Scene");
+    addWord(command, "--probe-filter", scene.probeFilter, {"nearest", "bilinear"},
+            "nearest or bilinear", "the scene's, else bilinear")
+        ->group("Scene");
+    command
+        .add_flag("--smooth-normals", scene.smoothNormals,
+                  "interpolated normals for meshes that have none")
+        ->group("Scene");
+    command
+        .add_option("--allow-path", scene.allowedPaths,
+                    withDefault("another folder that files may lie in; repeatable", "none"))
+        ->type_name("DIR")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->group("Scene");
+    addChoice(
+        command, "--bvh-build", options.bvhBuild,
+        {{"auto", BvhBuild::automatic}, {"sweep", BvhBuild::sweep}, {"binned", BvhBuild::binned}},
+        "auto, sweep (best tree) or binned (fast)")
+        ->group("Scene");
 }
 
 void addDeviceOptions(CLI::App& command, CommonOptions& options)
 {
     DeviceOptions& device = options.deviceOptions;
-    command.add_option("--device", options.device,
-                       "auto, cpu, discrete, integrated, software, an index, a UUID or part of a name")
-        ->type_name("DEVICE")->group("Device");
-    addNumber(command, "--threads", device.threads, 1, 1024, "threads of the host and of --device cpu")
+    command
+        .add_option("--device", options.device,
+                    withDefault("auto, cpu, discrete, integrated, software, an index, a UUID or\n"
+                                "part of a name; see sahl devices",
+                                options.device))
+        ->type_name("DEVICE")
+        ->group("Device");
+    addNumber(command, "--threads", device.threads, {1, 1024}, "threads of the host", "all cores")
         ->group("Device");
 
-    addNumber(command, "--tile", options.tileSize, 1, 65536, "largest side of a tile [pixels]")->group("Testing");
-    command.add_option_function<std::vector<uint32_t>>(
-               "--group",
-               [&device](const std::vector<uint32_t>& shape) {
-                   device.groupWidth = shape[0];
-                   device.groupHeight = shape[1];
-               },
-               "workgroup shape [invocations]")
-        ->expected(2)->check(CLI::Range(1u, 1024u))->type_name("W H")->group("Testing");
-    static const std::map<std::string, DeviceOptions::Buffers> buffers = {
-        {"auto", DeviceOptions::Buffers::automatic},
-        {"texel", DeviceOptions::Buffers::texel},
-        {"storage", DeviceOptions::Buffers::storage}};
-    command.add_option("--buffers", device.buffers, "auto, texel or storage: how the device reads the scene")
-        ->transform(CLI::CheckedTransformer(buffers))->type_name("NAME")->group("Testing");
-    addNumber(command, "--steps", device.stepBudget, 1, 1 << 30, "steps of traversal a dispatch may take")
+    addNumber(command, "--tile", options.tileSize, {1, 65536}, "largest side of a tile [pixels]",
+              "by device")
         ->group("Testing");
-    command.add_flag("--validation", device.validation, "Vulkan validation layer; any message is an error")
+    addGroupShape(command, device);
+    addChoice(command, "--buffers", device.buffers,
+              {{"auto", DeviceOptions::Buffers::automatic},
+               {"texel", DeviceOptions::Buffers::texel},
+               {"storage", DeviceOptions::Buffers::storage}},
+              "auto, texel or storage: how the device reads the scene")
+        ->group("Testing");
+    addNumber(command, "--steps", device.stepBudget, {1, 1 << 30}, "steps of a path in a dispatch",
+              "by device")
+        ->group("Testing");
+    command
+        .add_flag("--validation", device.validation,
+                  "any message of the validation layer is an error")
         ->group("Testing");
 }
 
 void addMessageOptions(CLI::App& command, CommonOptions& options)
 {
-    command.add_option("--progress", options.progress, "auto, bar, plain or none")
-        ->check(CLI::IsMember({"auto", "bar", "plain", "none"}))->type_name("NAME")->group("Messages");
-    command.add_flag("-q,--quiet", options.quiet, "only errors")->group("Messages");
-    command.add_flag("-v,--verbose", options.verbose, "more about scene, tree and device")->group("Messages");
+    addWord(command, "--progress", options.progress, {"auto", "bar", "plain", "none"},
+            "auto, bar, plain (a line every 10 s) or none", options.progress)
+        ->group("Messages");
+    addFlag(command, "-q,--quiet", options.quiet, "only errors, and what another option asks for")
+        ->group("Messages");
+    addFlag(command, "-v,--verbose", options.verbose, "more about scene, tree and device")
+        ->group("Messages");
 }
 
 Scene loadSceneFor(const CommonOptions& options)
@@ -95,15 +136,27 @@ std::unique_ptr<Device> openDeviceFor(const CommonOptions& options)
     auto device = openDevice(options.device, options.deviceOptions, note);
     if (!options.quiet) {
         DeviceInfo info = device->info();
-        fmt::print(stderr, "device: {} ({})\n", info.name, info.driver);
-        if (!note.empty()) fmt::print(stderr, "{}\n", note);
+        say("device: {} ({})\n", info.name, info.driver);
+        if (!note.empty()) say("{}\n", note);
     }
     return device;
 }
 
+void requireFilmMemory(const RenderSettings& settings, unsigned films)
+{
+    // Sums of both halves, digests, the blocks of a pass; and at last two pictures and their files.
+    constexpr uint64_t FILM = 2 * sizeof(HalfPixel) + sizeof(uint32_t) + sizeof(PixelBlock);
+    constexpr uint64_t PICTURES = 4 * 3 * sizeof(float);
+    uint64_t pixels = uint64_t{settings.width} * settings.height;
+    requireMemory(pixels * (FILM * films + PICTURES),
+                  fmt::format("a picture of {} x {} pixels", settings.width, settings.height),
+                  "render a smaller one");
+}
+
 unsigned threadsFor(const CommonOptions& options)
 {
-    return options.deviceOptions.threads != 0 ? options.deviceOptions.threads : defaultThreadCount();
+    return options.deviceOptions.threads != 0 ? options.deviceOptions.threads
+                                              : defaultThreadCount();
 }
 
 }  // namespace sahl

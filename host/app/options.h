@@ -39,6 +39,10 @@ Scene loadSceneFor(const CommonOptions& options);
 /// Opens options.device and tells the user what was chosen, unless --quiet.
 std::unique_ptr<Device> openDeviceFor(const CommonOptions& options);
 
+/// Throws deviceLost, with numbers, when there is no memory for `films` films of that size and for
+/// the pictures made from them.
+void requireFilmMemory(const RenderSettings& settings, unsigned films);
+
 /// Number of host threads in force.
 unsigned threadsFor(const CommonOptions& options);
 

@@ -2,7 +2,8 @@
 
 #include "util/error.h"
 
-#include <exception>
+#include <optional>
+#include <random>
 
 namespace sahl {
 
@@ -15,23 +16,46 @@ std::string extensionOf(const fs::path& path)
     return extension;
 }
 
+/// Keeps the result of long work whose outputs failed. Returns what to tell the user.
+std::string rescue(const Image& image, const ImageMetadata& metadata)
+{
+    std::error_code ignored;
+    fs::path path = fs::temp_directory_path(ignored);
+    path /= fmt::format("sahl-rescued-{:08x}.exr", std::random_device{}());
+    try {
+        writeFileAtomically(path, encodeExr(image, metadata));
+    } catch (const Error&) {
+        return "";
+    }
+    return fmt::format("; the picture was saved as {}", path.string());
+}
+
 }  // namespace
 
-void checkOutputs(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs)
+void checkPicturePaths(const std::vector<fs::path>& paths)
+{
+    for (const fs::path& path : paths) {
+        std::string extension = extensionOf(path);
+        if (extension != ".exr" && extension != ".png" && extension != ".pfm") {
+            throw usageError(
+                "output '{}': the name must end in .exr, .pfm (linear) or .png (tone mapped)",
+                path.string());
+        }
+        requireWritable(path);
+    }
+}
+
+void refuseToReplaceInputs(const std::vector<fs::path>& outputs)
 {
     for (const fs::path& output : outputs) {
-        std::string extension = extensionOf(output);
-        if (extension != ".exr" && extension != ".png" && extension != ".pfm") {
-            throw usageError("{}: the name must end in .exr, .pfm (linear) or .png (tone mapped)",
-                             output.string());
-        }
-        for (const fs::path& input : inputs) {
+        for (const fs::path& input : filesRead()) {
             std::error_code ignored;
             if (fs::equivalent(output, input, ignored)) {
-                throw usageError("{}: is an input; writing it would destroy it", output.string());
+                throw usageError(
+                    "{}: is an input; writing it would destroy it; name another output",
+                    output.string());
             }
         }
-        requireWritable(output);
     }
 }
 
@@ -44,22 +68,27 @@ void writeImage(const Image& image, const OutputOptions& options, const fs::path
     } else if (extension == ".pfm") {
         writeFileAtomically(path, encodePfm(image));
     } else {
-        writeFileAtomically(path, encodePng(toneMap(image, options.toneMap, options.exposure), metadata));
+        writeFileAtomically(path,
+                            encodePng(toneMap(image, options.toneMap, options.exposure), metadata));
     }
 }
 
 void writeOutputs(const Film& film, const OutputOptions& options, const ImageMetadata& metadata)
 {
     Image image = meanImage(film);
-    std::exception_ptr failure;
+    std::optional<Error> failure;
+    bool linearWritten = false;
     for (const fs::path& path : options.paths) {
         try {
             writeImage(image, options, path, metadata);
-        } catch (...) {
-            if (!failure) failure = std::current_exception();
+            linearWritten = linearWritten || extensionOf(path) != ".png";
+        } catch (const Error& error) {
+            if (!failure) failure = error;
         }
     }
-    if (failure) std::rethrow_exception(failure);
+    if (!failure) return;
+    std::string rescued = linearWritten ? "" : rescue(image, metadata);
+    throw Error(failure->kind, failure->what() + rescued);
 }
 
 }  // namespace sahl

@@ -15,16 +15,20 @@ struct OutputOptions {
     float exposure = 0;  ///< [stops]
 };
 
-/// Refuses what cannot work, before anything is rendered: unknown extensions and outputs that are one
-/// of the inputs (usage), unwritable ones (cannotWrite).
-void checkOutputs(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs);
+/// Refuses pictures that cannot be written, before anything is read or rendered: unknown extensions
+/// (usage), unwritable files (cannotWrite).
+void checkPicturePaths(const std::vector<fs::path>& paths);
+
+/// Refuses outputs that are files which were read so far: writing would destroy them (usage).
+void refuseToReplaceInputs(const std::vector<fs::path>& outputs);
 
 /// Writes a picture, in the format that the extension names.
 void writeImage(const Image& image, const OutputOptions& options, const fs::path& path,
                 const ImageMetadata& metadata);
 
-/// Writes the film's mean picture to every path, each file complete or not at all. When one fails the
-/// others are still written; then the first failure is thrown.
+/// Writes the film's mean picture to every path, each file complete or not at all. When one fails
+/// the others are still written; then the first failure is thrown. A linear picture that none of
+/// them holds is then put into the folder for temporary files, and the failure's text says so.
 void writeOutputs(const Film& film, const OutputOptions& options, const ImageMetadata& metadata);
 
 }  // namespace sahl

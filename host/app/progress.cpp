@@ -1,5 +1,7 @@
 #include "app/progress.h"
 
+#include "util/messages.h"
+
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -40,9 +42,10 @@ std::string describe(const RenderProgress& p, uint32_t samplesPerPixel)
 {
     double mraysPerSecond = double(p.rays) / std::max(p.seconds, 1e-9) * 1e-6;
     double left = p.fraction > 0 ? p.seconds / p.fraction - p.seconds : 0;
-    std::string error = p.relativeError > 0 ? fmt::format("  error {:.2g} %", 100 * p.relativeError) : "";
-    return fmt::format("{:3.0f} %  {}/{} spp  {:.2f} Mrays/s{}  {} left", 100 * p.fraction, p.samplesDone,
-                       samplesPerPixel, mraysPerSecond, error, duration(left));
+    std::string error =
+        p.relativeError > 0 ? fmt::format("  error {:.2g} %", 100 * p.relativeError) : "";
+    return fmt::format("{:3.0f} %  {}/{} spp  {:.2f} Mrays/s{}  {} left", 100 * p.fraction,
+                       p.samplesDone, samplesPerPixel, mraysPerSecond, error, duration(left));
 }
 
 }  // namespace
@@ -66,7 +69,7 @@ void ProgressPrinter::update(const RenderProgress& progress)
     lastSeconds_ = progress.seconds;
     std::string text = describe(progress, samplesPerPixel_);
     if (mode_ == Mode::plain) {
-        fmt::print(stderr, "{}\n", text);
+        say("{}\n", text);
         return;
     }
     int room = terminalWidth() - static_cast<int>(text.size()) - 4;
@@ -75,14 +78,13 @@ void ProgressPrinter::update(const RenderProgress& progress)
         int filled = static_cast<int>(progress.fraction * room);
         bar = fmt::format("[{:<{}}] ", std::string(filled, '#'), room);
     }
-    fmt::print(stderr, "\r{}{}\x1b[K", bar, text);
-    std::fflush(stderr);
+    say("\r{}{}\x1b[K", bar, text);
     barShown_ = true;
 }
 
 void ProgressPrinter::finish()
 {
-    if (barShown_) fmt::print(stderr, "\r\x1b[K");
+    if (barShown_) say("\r\x1b[K");
     barShown_ = false;
 }
 

@@ -9,7 +9,8 @@ namespace sahl {
 
 class ProgressPrinter {
 public:
-    /// mode: "auto" (a bar where stderr is a terminal that can redraw a line), "bar", "plain", "none".
+    /// mode: "auto" (a bar where stderr is a terminal that can redraw a line), "bar", "plain",
+    /// "none".
     ProgressPrinter(const std::string& mode, bool quiet, uint32_t samplesPerPixel);
 
     void update(const RenderProgress& progress);

@@ -1,16 +1,19 @@
 // sahl render: from a scene file to pictures.
 
+#include "render/render.h"
 #include "app/commands.h"
+#include "app/option_kinds.h"
 #include "app/options.h"
 #include "app/outputs.h"
 #include "app/progress.h"
 #include "app/stats.h"
 #include "render/prepare.h"
-#include "render/render.h"
 #include "sahl_version.h"
 #include "util/error.h"
 #include "util/interrupt.h"
+#include "util/messages.h"
 
+#include <algorithm>
 #include <memory>
 
 namespace sahl {
@@ -25,20 +28,34 @@ struct RenderOptions {
 
 void addOutputOptions(CLI::App& command, RenderOptions& options)
 {
-    command.add_option("-o,--output", options.output.paths,
-                       "picture to write: .exr or .pfm (linear), .png (tone mapped); may be repeated; "
-                       "default SCENE.exr and SCENE.png here")
-        ->type_name("FILE")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+    OutputOptions& output = options.output;
+    command
+        .add_option("-o,--output", output.paths,
+                    withDefault("picture to write: .exr or .pfm (linear), .png (tone mapped);\n"
+                                "repeatable",
+                                "SCENE.exr and SCENE.png here"))
+        ->type_name("FILE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->group("Output");
-    static const std::map<std::string, ToneMap> operators = {
-        {"percentile", ToneMap::percentile}, {"naive", ToneMap::naive}, {"srgb", ToneMap::srgb}};
-    command.add_option("--tone-map", options.output.toneMap,
-                       "percentile (5-95), naive (min-max) or srgb (exposure, sRGB)")
-        ->transform(CLI::CheckedTransformer(operators))->type_name("NAME")->group("Output");
-    command.add_option("--exposure", options.output.exposure, "for --tone-map srgb [stops]")
-        ->check(CLI::Range(-100.0, 100.0))->type_name("X")->group("Output");
-    command.add_option("--stats", options.statsPath, "write statistics as JSON (docs/stats.md)")
-        ->type_name("FILE")->group("Output");
+    addChoice(
+        command, "--tone-map", output.toneMap,
+        {{"percentile", ToneMap::percentile}, {"naive", ToneMap::naive}, {"srgb", ToneMap::srgb}},
+        "percentile (5-95), naive (min-max) or srgb")
+        ->group("Output");
+    auto setExposure = [&output](const std::string& text) {
+        output.exposure = static_cast<float>(parseReal("--exposure", text, -100, 100));
+    };
+    command
+        .add_option_function<std::string>(
+            "--exposure", setExposure, withDefault("for --tone-map srgb [stops], -100 to 100", "0"))
+        ->type_name("X")
+        ->group("Output");
+    command
+        .add_option("--stats", options.statsPath,
+                    withDefault("write statistics as JSON (docs/stats.md)", "none"))
+        ->type_name("FILE")
+        ->group("Output");
 }
 
 void chooseDefaultOutputs(RenderOptions& options)
@@ -49,14 +66,19 @@ void chooseDefaultOutputs(RenderOptions& options)
     options.output.paths = {stem.string() + ".exr", stem.string() + ".png"};
 }
 
-void checkStatsPath(const RenderOptions& options)
+/// Refuses outputs that cannot be written, before anything is read. Returns all of them.
+std::vector<fs::path> checkOutputs(const RenderOptions& options)
 {
-    if (options.statsPath.empty()) return;
-    std::error_code ignored;
-    if (fs::equivalent(options.statsPath, options.common.scenePath, ignored)) {
-        throw usageError("{}: is an input; writing it would destroy it", options.statsPath);
+    std::vector<fs::path> outputs = options.output.paths;
+    checkPicturePaths(outputs);
+    if (options.statsPath.empty()) return outputs;
+    if (std::find(outputs.begin(), outputs.end(), options.statsPath) != outputs.end()) {
+        throw usageError("{}: is a picture to write; name another file for --stats",
+                         options.statsPath);
     }
     requireWritable(options.statsPath);
+    outputs.push_back(options.statsPath);
+    return outputs;
 }
 
 ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_t samplesTaken,
@@ -78,17 +100,34 @@ ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_
             {"sahl.driver", info.driver}};
 }
 
-void printSummary(const RenderOptions& options, const PreparedScene& prepared, const RenderResult& result)
+void printSummary(const RenderOptions& options, const PreparedScene& prepared,
+                  const RenderResult& result)
 {
     if (options.common.quiet) return;
     const Counters& counters = result.film.counters;
     uint64_t rays = counters.cameraRays + counters.indirectRays + counters.shadowRays;
-    fmt::print(stderr, "{} triangles, {} samples, {} rays in {:.1f} s ({:.2f} Msamples/s, {:.2f} Mrays/s)\n",
-               prepared.bvh.primitives.size(), counters.cameraRays, rays, result.seconds,
-               double(counters.cameraRays) / std::max(result.seconds, 1e-9) * 1e-6,
-               double(rays) / std::max(result.seconds, 1e-9) * 1e-6);
+    say("{} triangles, {} samples, {} rays in {:.1f} s ({:.2f} Msamples/s, {:.2f} Mrays/s)\n",
+        prepared.bvh.primitives.size(), counters.cameraRays, rays, result.seconds,
+        double(counters.cameraRays) / std::max(result.seconds, 1e-9) * 1e-6,
+        double(rays) / std::max(result.seconds, 1e-9) * 1e-6);
     if (counters.badSamples > 0) {
-        warn(fmt::format("{} samples were negative or not finite and count as black", counters.badSamples));
+        warn(fmt::format("{} samples were negative or not finite and count as black",
+                         counters.badSamples));
+    }
+}
+
+/// What a signal left of the picture. Without a single sample no file is replaced.
+void sayInterrupted(const RenderOptions& options, const RenderSettings& settings,
+                    const RenderResult& result)
+{
+    if (options.common.quiet) return;
+    if (result.film.counters.cameraRays == 0) {
+        say("sahl: interrupted before the first sample; nothing is saved\n");
+    } else if (result.passes == 0) {
+        say("sahl: interrupted in the first pass; saving its finished tiles, the rest is black\n");
+    } else {
+        say("sahl: interrupted; saving {} of {} samples per pixel\n", result.passes * BLOCK_SIZE,
+            settings.spp);
     }
 }
 
@@ -97,26 +136,27 @@ void printDetails(const PreparedScene& prepared, const Device& device)
 {
     const BvhStatistics& tree = prepared.bvh.statistics;
     DeviceStatistics work = device.statistics();
-    fmt::print(stderr, "tree: {} inner nodes, {} leaves, depth {}, SAH cost {:.2f}, {:.2f} s\n", tree.innerNodes,
-               tree.leaves, tree.depth, tree.sahCost, tree.seconds);
-    fmt::print(stderr, "device work: {} bytes of scene, {} dispatches, {} resumptions, {} retries, {} steps each\n",
-               work.sceneBytes, work.dispatches, work.resumptions, work.retries, work.stepBudget);
+    say("tree: {} inner nodes, {} leaves, depth {}, SAH cost {:.2f}, {:.2f} s\n", tree.innerNodes,
+        tree.leaves, tree.depth, tree.sahCost, tree.seconds);
+    say("device work: {} bytes of scene, {} dispatches, {} resumptions, {} retries, {} steps "
+        "each\n",
+        work.sceneBytes, work.dispatches, work.resumptions, work.retries, work.stepBudget);
 }
 
 int runRender(RenderOptions& options)
 {
     setQuiet(options.common.quiet);
     chooseDefaultOutputs(options);
-    std::vector<fs::path> inputs = {options.common.scenePath};
-    if (options.common.scene.probe) inputs.push_back(*options.common.scene.probe);
-    checkOutputs(options.output.paths, inputs);
-    checkStatsPath(options);
+    std::vector<fs::path> outputs = checkOutputs(options);
 
     Stopwatch watch;
     StageSeconds seconds;
     Scene scene = loadSceneFor(options.common);
+    refuseToReplaceInputs(outputs);
+    requireFilmMemory(scene.settings, 1);
     seconds.load = watch.lap();
-    PreparedScene prepared = prepareScene(std::move(scene), options.common.bvhBuild, threadsFor(options.common));
+    PreparedScene prepared =
+        prepareScene(std::move(scene), options.common.bvhBuild, threadsFor(options.common));
     seconds.build = watch.lap();
     std::unique_ptr<Device> device = openDeviceFor(options.common);
     device->setScene(prepared.deviceScene());
@@ -125,13 +165,17 @@ int runRender(RenderOptions& options)
     const RenderSettings& settings = prepared.scene.settings;
     ProgressPrinter printer(options.common.progress, options.common.quiet, settings.spp);
     RenderPlan plan = {settings.width, settings.height, 0, settings.spp, options.common.tileSize};
-    RenderResult result =
-        renderPicture(*device, plan, [&](const RenderProgress& progress) { printer.update(progress); });
+    RenderResult result = renderPicture(
+        *device, plan, [&](const RenderProgress& progress) { printer.update(progress); });
     printer.finish();
     seconds.render = watch.lap();
 
+    if (result.interrupted) sayInterrupted(options, settings, result);
+    if (result.film.counters.cameraRays == 0) return interruptedExitCode();
+
     uint32_t samplesTaken = std::min(settings.spp, result.passes * BLOCK_SIZE);
-    writeOutputs(result.film, options.output, metadataOf(prepared.scene, result, samplesTaken, *device));
+    writeOutputs(result.film, options.output,
+                 metadataOf(prepared.scene, result, samplesTaken, *device));
     seconds.write = watch.lap();
     seconds.total = watch.total();
     if (!options.statsPath.empty()) {
@@ -141,10 +185,10 @@ int runRender(RenderOptions& options)
 
     printSummary(options, prepared, result);
     if (options.common.verbose) printDetails(prepared, *device);
-    for (const fs::path& path : options.output.paths) fmt::print("{}\n", path.string());
-    if (!result.interrupted) return 0;
-    fmt::print(stderr, "sahl: interrupted; saved {} of {} samples per pixel\n", samplesTaken, settings.spp);
-    return interruptedExitCode();
+    if (!options.common.quiet) {
+        for (const fs::path& path : options.output.paths) answer("{}\n", path.string());
+    }
+    return result.interrupted ? interruptedExitCode() : 0;
 }
 
 }  // namespace
@@ -152,16 +196,21 @@ int runRender(RenderOptions& options)
 Command addRenderCommand(CLI::App& app)
 {
     auto options = std::make_shared<RenderOptions>();
-    CLI::App* command = app.add_subcommand("render", "render a scene into pictures");
+    CLI::App* command =
+        app.add_subcommand("render", "render a scene into pictures")->group("Commands");
     command->add_option("scene", options->common.scenePath, "scene (.json) or mesh (.obj)")
-        ->required()->type_name("SCENE");
+        ->required()
+        ->type_name("SCENE");
     addOutputOptions(*command, *options);
     addSceneOptions(*command, options->common);
     addDeviceOptions(*command, options->common);
     addMessageOptions(*command, options->common);
-    command->footer("Examples:\n"
-                    "  sahl render scenes/default/default.json -o teapot.png\n"
-                    "  sahl render bunny.obj --probe uffizi.hdr --spp 256 --device cpu");
+    command->footer(
+        "A scene that does not say otherwise has 512 x 512 pixels, 64 samples per pixel,\n"
+        "at most 8 scatterings of a path, and the seed 0.\n\n"
+        "Examples:\n"
+        "  sahl render scenes/default/default.json -o teapot.png\n"
+        "  sahl render bunny.obj --probe uffizi.hdr --spp 256 --device cpu");
     return [options] { return runRender(*options); };
 }
 

@@ -1,14 +1,16 @@
 // sahl verify: does the device compute what the text says?
 
+#include "render/verify.h"
 #include "app/commands.h"
+#include "app/option_kinds.h"
 #include "app/options.h"
 #include "app/outputs.h"
 #include "app/progress.h"
 #include "app/stats.h"
 #include "render/prepare.h"
-#include "render/verify.h"
 #include "util/error.h"
 #include "util/interrupt.h"
+#include "util/messages.h"
 
 #include <memory>
 
@@ -24,12 +26,9 @@ struct VerifyOptions {
 
 nlohmann::ordered_json blockJson(const PixelBlock& block)
 {
-    return {{"sum", {block.sum.x, block.sum.y, block.sum.z}},
-            {"sumY2", block.sumY2},
-            {"digest", fmt::format("{:08x}", block.digest)},
-            {"boxTests", block.boxTests},
-            {"primitiveTests", block.primitiveTests},
-            {"bounces", block.bounces}};
+    return {{"sum", {block.sum.x, block.sum.y, block.sum.z}}, {"sumY2", block.sumY2},
+            {"digest", fmt::format("{:08x}", block.digest)},  {"boxTests", block.boxTests},
+            {"primitiveTests", block.primitiveTests},         {"bounces", block.bounces}};
 }
 
 nlohmann::ordered_json verifyJson(const Scene& scene, const Device& device, const Device& reference,
@@ -37,7 +36,8 @@ nlohmann::ordered_json verifyJson(const Scene& scene, const Device& device, cons
 {
     auto side = [](const Device& d, double seconds) {
         DeviceInfo info = d.info();
-        return nlohmann::ordered_json{{"name", info.name}, {"driver", info.driver}, {"seconds", seconds}};
+        return nlohmann::ordered_json{
+            {"name", info.name}, {"driver", info.driver}, {"seconds", seconds}};
     };
     nlohmann::ordered_json json = {{"version", 1},
                                    {"scene", scene.name},
@@ -49,8 +49,12 @@ nlohmann::ordered_json verifyJson(const Scene& scene, const Device& device, cons
                                    {"counters", countersJson(result.deviceFilm.counters)}};
     if (result.first) {
         const Divergence& first = *result.first;
-        json["first"] = {{"x", first.x},           {"y", first.y},         {"sample", first.sample},
-                         {"bounce", first.bounce}, {"stage", first.stage}, {"device", blockJson(first.device)},
+        json["first"] = {{"x", first.x},
+                         {"y", first.y},
+                         {"sample", first.sample},
+                         {"bounce", first.bounce},
+                         {"stage", first.stage},
+                         {"device", blockJson(first.device)},
                          {"reference", blockJson(first.reference)}};
     }
     return json;
@@ -58,31 +62,37 @@ nlohmann::ordered_json verifyJson(const Scene& scene, const Device& device, cons
 
 void printBlock(const char* who, const PixelBlock& block)
 {
-    fmt::print("  {:9}  radiance ({:a}, {:a}, {:a})  digest {:08x}  {} box tests, {} primitive tests\n", who,
-               block.sum.x, block.sum.y, block.sum.z, block.digest, block.boxTests, block.primitiveTests);
+    answer("  {:9}  radiance ({:a}, {:a}, {:a})  digest {:08x}  {} box tests, {} primitive tests\n",
+           who, block.sum.x, block.sum.y, block.sum.z, block.digest, block.boxTests,
+           block.primitiveTests);
 }
 
-void printVerdict(const Scene& scene, const Device& device, const Device& reference, const VerifyResult& result)
+void printVerdict(const Scene& scene, const Device& device, const Device& reference,
+                  const VerifyResult& result)
 {
     const RenderSettings& s = scene.settings;
-    fmt::print("scene      {}, {}x{}, {} spp, {} bounces\n", scene.name, s.width, s.height, s.spp, s.maxBounces);
-    for (const auto& [who, d] : {std::pair{"device   ", &device}, std::pair{"reference", &reference}}) {
-        fmt::print("{}  {} ({})\n", who, d->info().name, d->info().driver);
+    answer("scene      {}, {}x{}, {} spp, {} bounces\n", scene.name, s.width, s.height, s.spp,
+           s.maxBounces);
+    for (const auto& [who, d] :
+         {std::pair{"device   ", &device}, std::pair{"reference", &reference}}) {
+        answer("{}  {} ({})\n", who, d->info().name, d->info().driver);
     }
     const Counters& c = result.deviceFilm.counters;
-    fmt::print("compared   {} pixels: film integers, path digests, counters ({} rays, {} box tests, {} primitive "
-               "tests)\n",
-               uint64_t{s.width} * s.height, c.cameraRays + c.indirectRays + c.shadowRays, c.boxTests,
-               c.primitiveTests);
+    answer("compared   {} pixels: film integers, path digests, counters ({} rays, {} box tests, {} "
+           "primitive "
+           "tests)\n",
+           uint64_t{s.width} * s.height, c.cameraRays + c.indirectRays + c.shadowRays, c.boxTests,
+           c.primitiveTests);
     if (result.equal()) {
-        fmt::print("EQUAL      0 differing bits\n");
+        answer("EQUAL      0 differing bits\n");
         return;
     }
-    fmt::print("DIFFERENT  {} pixels, {} bits of the film\n", result.differingPixels, result.differingFilmBits);
+    answer("DIFFERENT  {} pixels, {} bits of the film\n", result.differingPixels,
+           result.differingFilmBits);
     if (!result.first) return;
     const Divergence& first = *result.first;
-    fmt::print("first at pixel ({}, {}), sample {}, bounce {}: {}\n", first.x, first.y, first.sample, first.bounce,
-               first.stage);
+    answer("first at pixel ({}, {}), sample {}, bounce {}: {}\n", first.x, first.y, first.sample,
+           first.bounce, first.stage);
     printBlock("device", first.device);
     printBlock("reference", first.reference);
 }
@@ -90,33 +100,43 @@ void printVerdict(const Scene& scene, const Device& device, const Device& refere
 int runVerify(VerifyOptions& options)
 {
     setQuiet(options.common.quiet);
-    if (!options.differencePath.empty()) checkOutputs({options.differencePath}, {options.common.scenePath});
+    std::vector<fs::path> outputs;
+    if (!options.differencePath.empty()) outputs.push_back(options.differencePath);
+    checkPicturePaths(outputs);
+    Scene scene = loadSceneFor(options.common);
+    refuseToReplaceInputs(outputs);
+    requireFilmMemory(scene.settings, 2);
     PreparedScene prepared =
-        prepareScene(loadSceneFor(options.common), options.common.bvhBuild, threadsFor(options.common));
+        prepareScene(std::move(scene), options.common.bvhBuild, threadsFor(options.common));
     std::unique_ptr<Device> device = openDeviceFor(options.common);
     std::unique_ptr<Device> reference = makeCpuDevice(options.common.deviceOptions);
 
-    ProgressPrinter printer(options.common.progress, options.common.quiet || options.json, prepared.scene.settings.spp);
+    ProgressPrinter printer(options.common.progress, options.common.quiet || options.json,
+                            prepared.scene.settings.spp);
     Stopwatch watch;
-    VerifyResult result = verifyDevice(*device, *reference, prepared.deviceScene(), prepared.scene.settings.spp,
-                                       options.common.tileSize, [&](double fraction) {
-                                           RenderProgress progress;
-                                           progress.fraction = fraction;
-                                           progress.seconds = watch.total();
-                                           printer.update(progress);
-                                       });
+    VerifyResult result =
+        verifyDevice(*device, *reference, prepared.deviceScene(), prepared.scene.settings.spp,
+                     options.common.tileSize, [&](double fraction) {
+                         RenderProgress progress;
+                         progress.fraction = fraction;
+                         progress.seconds = watch.total();
+                         printer.update(progress);
+                     });
     printer.finish();
-    if (result.interrupted) return interruptedExitCode();
+    if (result.interrupted) {
+        say("sahl: interrupted; nothing is decided\n");
+        return interruptedExitCode();
+    }
 
     if (options.json) {
-        fmt::print("{}\n", verifyJson(prepared.scene, *device, *reference, result).dump(2));
-    } else {
+        answer("{}\n", verifyJson(prepared.scene, *device, *reference, result).dump(2));
+    } else if (!options.common.quiet || !result.equal()) {
         printVerdict(prepared.scene, *device, *reference, result);
     }
     if (!result.equal() && !options.differencePath.empty()) {
         Image difference = differenceImage(result.deviceFilm, result.referenceFilm);
         writeImage(difference, {}, options.differencePath, {});
-        if (!options.json) fmt::print("difference picture: {}\n", options.differencePath);
+        if (!options.json) answer("difference picture: {}\n", options.differencePath);
     }
     return result.equal() ? 0 : static_cast<int>(ErrorKind::checkFailed);
 }
@@ -127,17 +147,23 @@ Command addVerifyCommand(CLI::App& app)
 {
     auto options = std::make_shared<VerifyOptions>();
     CLI::App* command =
-        app.add_subcommand("verify", "compare a device with the CPU reference, bit for bit");
-    command->add_option("scene", options->common.scenePath,
-                        "scene (.json) or mesh (.obj); without one a small built-in scene")
+        app.add_subcommand("verify", "compare a device with the CPU reference, bit for bit")
+            ->group("Commands");
+    command
+        ->add_option("scene", options->common.scenePath,
+                     "scene (.json) or mesh (.obj); without one a small built-in scene")
         ->type_name("SCENE");
-    command->add_option("--difference", options->differencePath, "picture of |device - reference| if they differ")
-        ->type_name("FILE")->group("Output");
-    command->add_flag("--json", options->json, "the result as JSON on stdout")->group("Output");
+    command
+        ->add_option("--difference", options->differencePath,
+                     withDefault("picture of |device - reference| if they differ", "none"))
+        ->type_name("FILE")
+        ->group("Output");
+    addFlag(*command, "--json", options->json, "the result as JSON on stdout")->group("Output");
     addSceneOptions(*command, options->common);
     addDeviceOptions(*command, options->common);
     addMessageOptions(*command, options->common);
-    command->footer("Exit code 0: equal; 1: different.\n\nExamples:\n"
+    command->footer("Exit code 0: equal; 1: different, with the first pixel, sample and bounce "
+                    "that are.\n\nExamples:\n"
                     "  sahl verify\n"
                     "  sahl verify scene.json --device 0 --spp 8 --difference where.exr");
     return [options] { return runVerify(*options); };

@@ -102,16 +102,16 @@ DeviceInfo VulkanDevice::info() const
 
 void VulkanDevice::setScene(const DeviceScene& scene)
 {
-    auto start = std::chrono::steady_clock::now();
     scene_.reset();  // first, so that there never need be room for two scenes
     bound_ = false;
     uint32_t stackSize = chooseStackSize(scene.treeDepth);
+    auto start = std::chrono::steady_clock::now();
     auto uploaded = std::make_unique<VulkanScene>(uploadScene(*context_, scene, options_.buffers));
+    statistics_.uploadSeconds += secondsSince(start);
     preparePipeline(uploaded->texel, stackSize);
     scene_ = std::move(uploaded);
     statistics_.sceneBytes = scene_->bytes;
     statistics_.texelBuffers = scene_->texel;
-    statistics_.uploadSeconds += secondsSince(start);
 }
 
 void VulkanDevice::preparePipeline(bool texel, uint32_t stackSize)

@@ -1,7 +1,6 @@
 #include "scene/scene.h"
 
 #include "scene/camera.h"
-#include "scene/numbers.h"
 #include "scene/primitives.h"
 #include "scene/probe.h"
 #include "scene/scene_reading.h"

@@ -1,8 +1,9 @@
 #include "util/error.h"
 
+#include "util/messages.h"
+
 #include <algorithm>
 #include <atomic>
-#include <cstdio>
 #include <numeric>
 #include <vector>
 
@@ -30,10 +31,16 @@ size_t editDistance(const std::string& a, const std::string& b)
 
 void warn(const std::string& text)
 {
-    if (!quietFlag) fmt::print(stderr, "sahl: warning: {}\n", text);
+    if (!quietFlag) say("sahl: warning: {}\n", text);
 }
 
-void setQuiet(bool quiet) { quietFlag = quiet; }
-bool isQuiet() { return quietFlag; }
+void setQuiet(bool quiet)
+{
+    quietFlag = quiet;
+}
+bool isQuiet()
+{
+    return quietFlag;
+}
 
 }  // namespace sahl

@@ -21,7 +21,9 @@ enum class ErrorKind {
 /// Thrown by every folder of host/. The text names the place, what was found and what would help.
 class Error : public std::runtime_error {
 public:
-    Error(ErrorKind errorKind, const std::string& text) : std::runtime_error(text), kind(errorKind) {}
+    Error(ErrorKind errorKind, const std::string& text) : std::runtime_error(text), kind(errorKind)
+    {
+    }
     ErrorKind kind;
 };
 

@@ -6,9 +6,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
+#include <random>
 #include <utility>
 
 namespace sahl {
@@ -32,6 +33,9 @@ struct Descriptor {
     int fd;
 };
 
+std::mutex filesReadMutex;
+std::vector<fs::path> filesReadSoFar;
+
 /// Opens for reading and checks that it is a regular file of a bearable size.
 Descriptor openInput(const fs::path& path, uint64_t maxBytes, uint64_t& size)
 {
@@ -42,26 +46,30 @@ Descriptor openInput(const fs::path& path, uint64_t maxBytes, uint64_t& size)
     if (::fstat(file.fd, &info) != 0) throw badInput("{}: {}", path.string(), std::strerror(errno));
     if (S_ISDIR(info.st_mode)) throw badInput("{}: is a directory, not a file", path.string());
     if (!S_ISREG(info.st_mode)) {
-        throw badInput("{}: is not a regular file (a device or pipe cannot be read)", path.string());
+        throw badInput("{}: is not a regular file (a device or pipe cannot be read)",
+                       path.string());
     }
     size = static_cast<uint64_t>(info.st_size);
     if (size > maxBytes) {
         throw badInput("{}: has {} bytes; at most {} are read", path.string(), size, maxBytes);
     }
+    std::lock_guard lock(filesReadMutex);
+    filesReadSoFar.push_back(path);
     return Descriptor(std::exchange(file.fd, -1));
 }
 
-fs::path temporaryBeside(const fs::path& target)
+/// A new file beside `target`; its name has random digits, since process ids come again: in another
+/// container, or after a kill that left a temporary file behind.
+Descriptor createTemporary(const fs::path& target, fs::path& name)
 {
-    static std::atomic<unsigned> serial{0};
-    fs::path name = target;
-    name += fmt::format(".{}.{}.tmp", ::getpid(), serial++);
-    return name;
-}
-
-int createTemporary(const fs::path& path)
-{
-    return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    std::random_device random;
+    for (int attempt = 0; attempt < 100; attempt++) {
+        name = target;
+        name += fmt::format(".{:08x}.tmp", random());
+        int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (fd >= 0 || errno != EEXIST) return Descriptor(fd);
+    }
+    return Descriptor(-1);
 }
 
 void writeAll(int fd, std::span<const uint8_t> bytes, const fs::path& target)
@@ -79,6 +87,13 @@ fs::path folderOf(const fs::path& target)
     return target.has_parent_path() ? target.parent_path() : fs::path(".");
 }
 
+/// What a symbolic link leads to; other paths as they are.
+fs::path linkResolved(const fs::path& target)
+{
+    std::error_code ignored;
+    return fs::is_symlink(target, ignored) ? fs::weakly_canonical(target, ignored) : target;
+}
+
 /// Devices and pipes are written in place: there is nothing to rename over.
 bool isSpecialFile(const fs::path& target)
 {
@@ -87,6 +102,12 @@ bool isSpecialFile(const fs::path& target)
 }
 
 }  // namespace
+
+std::vector<fs::path> filesRead()
+{
+    std::lock_guard lock(filesReadMutex);
+    return filesReadSoFar;
+}
 
 void requireRegularFile(const fs::path& path, uint64_t maxBytes)
 {
@@ -119,15 +140,18 @@ std::string readTextFile(const fs::path& path, uint64_t maxBytes)
 
 void requireWritable(const fs::path& target)
 {
-    if (fs::is_directory(target)) throw cannotWrite(target, "it is a directory");
-    if (fs::exists(target) && ::access(target.c_str(), W_OK) != 0) {
+    std::error_code ignored;
+    if (fs::is_directory(target, ignored)) throw cannotWrite(target, "it is a directory");
+    if (fs::exists(target, ignored) && ::access(target.c_str(), W_OK) != 0) {
         throw cannotWrite(target, std::strerror(errno));
     }
     if (isSpecialFile(target)) return;
-    fs::path temporary = temporaryBeside(target);
-    Descriptor file(createTemporary(temporary));
+    fs::path place = linkResolved(target);
+    fs::path temporary;
+    Descriptor file = createTemporary(place, temporary);
     if (file.fd < 0) {
-        throw cannotWrite(target, fmt::format("{} (folder {})", std::strerror(errno), folderOf(target).string()));
+        throw cannotWrite(
+            target, fmt::format("{} (folder {})", std::strerror(errno), folderOf(place).string()));
     }
     ::unlink(temporary.c_str());
 }
@@ -140,20 +164,25 @@ void writeFileAtomically(const fs::path& target, std::span<const uint8_t> bytes)
         writeAll(device.fd, bytes, target);
         return;
     }
-    fs::path temporary = temporaryBeside(target);
-    Descriptor file(createTemporary(temporary));
+    fs::path place = linkResolved(target);
+    fs::path temporary;
+    Descriptor file = createTemporary(place, temporary);
     if (file.fd < 0) throw cannotWrite(target, std::strerror(errno));
     try {
         writeAll(file.fd, bytes, target);
         if (::fsync(file.fd) != 0) throw cannotWrite(target, std::strerror(errno));
-        if (::close(std::exchange(file.fd, -1)) != 0) throw cannotWrite(target, std::strerror(errno));
-        if (::rename(temporary.c_str(), target.c_str()) != 0) throw cannotWrite(target, std::strerror(errno));
+        if (::close(std::exchange(file.fd, -1)) != 0) {
+            throw cannotWrite(target, std::strerror(errno));
+        }
+        if (::rename(temporary.c_str(), place.c_str()) != 0) {
+            throw cannotWrite(target, std::strerror(errno));
+        }
     } catch (...) {
         ::unlink(temporary.c_str());
         throw;
     }
     // The rename itself must survive a power cut; a folder that cannot be synced is no failure.
-    Descriptor folder(::open(folderOf(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    Descriptor folder(::open(folderOf(place).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (folder.fd >= 0) ::fsync(folder.fd);
 }
 

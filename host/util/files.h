@@ -20,6 +20,10 @@ std::string readTextFile(const fs::path& path, uint64_t maxBytes = uint64_t{256}
 /// Same checks as readFile without reading: for libraries that open the file themselves.
 void requireRegularFile(const fs::path& path, uint64_t maxBytes = uint64_t{8} << 30);
 
+/// The files that the functions above have opened so far in this process: what no output may
+/// replace.
+std::vector<fs::path> filesRead();
+
 /// Throws cannotWrite unless a file can be created beside `target` now and `target` itself is
 /// absent or a writable regular file. Called before rendering, so that a bad path costs nothing.
 void requireWritable(const fs::path& target);

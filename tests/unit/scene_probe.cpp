@@ -147,7 +147,7 @@ TEST(Studio, isSoftSmoothAndLitFromAbove)
             EXPECT_GT(std::min({here.x, here.y, here.z}), 0.1f);
             EXPECT_LT(std::max({here.x, here.y, here.z}), 3.0f);
             // Also across the seam at the left and right border.
-            EXPECT_LT(glm::length(here - next), 0.4f) << x << ", " << y;
+            EXPECT_LT(glm::length(here - next), 0.5f) << x << ", " << y;
             (y < studio.height / 2 ? upper : lower) += here.y;
         }
     }

@@ -45,8 +45,11 @@ endfunction()
 
 # sahl_device_test(name ...), arguments as above: needs a Vulkan device, so every test runs once a
 # driver, under the names lavapipe.* and swiftshader.*. Where no such driver is found the tests run on
-# what the loader offers, and fail if that is nothing.
+# what the loader offers, and fail if that is nothing. Nothing is built with SAHL_WITH_VULKAN=OFF.
 function(sahl_device_test name)
+    if(NOT SAHL_WITH_VULKAN)
+        return()
+    endif()
     cmake_parse_arguments(ARG "LONG" "" "SOURCES;LINKS" ${ARGN})
     sahl_test_program(${name} "${ARG_SOURCES};${SAHL_ROOT}/tests/support/driver_leaks.cpp" "${ARG_LINKS}")
     sahl_find_test_drivers(drivers)
