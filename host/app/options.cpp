@@ -94,6 +94,13 @@ void addDeviceOptions(CLI::App& command, CommonOptions& options)
     addNumber(command, "--threads", device.threads, {1, 1024}, "threads of the host", "all cores")
         ->group("Device");
 
+    addChoice(command, "--math", device.math,
+              {{"auto", DeviceOptions::Math::automatic},
+               {"native", DeviceOptions::Math::native},
+               {"exact", DeviceOptions::Math::exact}},
+              "native division and root, exact ones, or (auto) exact\nwhere the device's own are not")
+        ->group("Device");
+
     addNumber(command, "--tile", options.tileSize, {1, 65536}, "largest side of a tile [pixels]",
               "by device")
         ->group("Testing");

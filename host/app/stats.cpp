@@ -82,6 +82,7 @@ Json statisticsJson(const PreparedScene& prepared, const Film& film, Device& dev
           {"driver", info.driver},
           {"kind", info.kind},
           {"texelBuffers", work.texelBuffers},
+          {"exactMath", work.exactMath},
           {"sceneBytes", work.sceneBytes},
           {"dispatches", work.dispatches},
           {"resumptions", work.resumptions},

@@ -49,6 +49,7 @@ struct DeviceStatistics {
     double uploadSeconds = 0;
     double renderSeconds = 0;   ///< inside render()
     uint64_t sceneBytes = 0;    ///< on the device
+    bool exactMath = false;     ///< division and root made exact rather than the device's own
     bool texelBuffers = false;  ///< scene read through texel buffers rather than storage buffers
 };
 
@@ -79,6 +80,8 @@ struct DeviceOptions {
     uint32_t traversalOrder = 0;       ///< one of ORDER_* (changes counters)
     // Vulkan only:
     enum class Buffers { automatic, texel, storage } buffers = Buffers::automatic;
+    /// Division and square root by the device itself, made exact, or as a test of the device decides.
+    enum class Math { automatic, native, exact } math = Math::automatic;
     uint32_t groupWidth = 8, groupHeight = 8;
     uint32_t stepBudget = 0;           ///< 0: by the driver; steps one invocation takes a dispatch
     bool validation = false;           ///< Khronos validation with synchronization checks, if installed

@@ -1,5 +1,6 @@
 // The Device that runs the path tracing kernels on Vulkan.
 #include "device/device.h"
+#include "device/exact_math.h"
 #include "device/vulkan_limits.h"
 #include "device/vulkan_scene.h"
 #include "kernels/spirv.h"
@@ -92,6 +93,7 @@ VulkanDevice::VulkanDevice(std::unique_ptr<Context> context, const DeviceOptions
     statistics_.stepBudget =
         options.stepBudget > 0 ? options.stepBudget : defaultStepBudget(context_->physical);
     minStepBudget_ = std::min(MIN_STEP_BUDGET, statistics_.stepBudget);
+    statistics_.exactMath = chooseExactMath(*context_, options.math);
 }
 
 DeviceInfo VulkanDevice::info() const
@@ -130,6 +132,7 @@ void VulkanDevice::preparePipeline(bool texel, uint32_t stackSize)
     request.specialisation[SPEC_GROUP_HEIGHT] = group_[1];
     request.specialisation[SPEC_STACK_SIZE] = stackSize;
     request.specialisation[SPEC_ORDER] = options_.traversalOrder;
+    request.specialisation[SPEC_EXACT_MATH] = statistics_.exactMath ? 1 : 0;
     pipelineStack_ = 0;
     pipeline_ = createComputePipeline(*context_, request);
     pipelineStack_ = stackSize;

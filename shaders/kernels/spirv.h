@@ -7,7 +7,7 @@
 
 namespace sahl {
 
-/// SPIR-V of a kernel: "path_texel" or "path_storage" (see kernels/device.glsl).
+/// SPIR-V of a kernel: "path_texel" or "path_storage" (see kernels/device.glsl), or "math_probe".
 std::span<const uint32_t> kernelSpirv(std::string_view name);
 
 }  // namespace sahl

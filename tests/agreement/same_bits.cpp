@@ -82,6 +82,15 @@ void expectSameLight(const Film& a, const Film& b)
     EXPECT_EQ(a.digest, b.digest);
 }
 
+TEST_F(SameBits, withExactDivisionAndRoot)
+{
+    DeviceOptions options;
+    options.math = DeviceOptions::Math::exact;
+    auto device = openFirstDevice(options);
+    EXPECT_TRUE(device->statistics().exactMath);
+    EXPECT_TRUE(renderFilm(*device, scene()) == reference());
+}
+
 TEST_F(SameBits, forSweepAndBinnedTrees)
 {
     PreparedScene binned = prepareScene(builtInScene(smallPicture(WIDTH, HEIGHT, SPP)), BvhBuild::binned, 2);
