@@ -106,7 +106,7 @@ void printSummary(const RenderOptions& options, const PreparedScene& prepared,
     if (options.common.quiet) return;
     const Counters& counters = result.film.counters;
     uint64_t rays = counters.cameraRays + counters.indirectRays + counters.shadowRays;
-    say("{} triangles, {} samples, {} rays in {:.1f} s ({:.2f} Msamples/s, {:.2f} Mrays/s)\n",
+    say("{} primitives, {} samples, {} rays in {:.1f} s ({:.2f} Msamples/s, {:.2f} Mrays/s)\n",
         prepared.bvh.primitives.size(), counters.cameraRays, rays, result.seconds,
         double(counters.cameraRays) / std::max(result.seconds, 1e-9) * 1e-6,
         double(rays) / std::max(result.seconds, 1e-9) * 1e-6);

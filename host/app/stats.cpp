@@ -62,7 +62,7 @@ Json statisticsJson(const PreparedScene& prepared, const Film& film, Device& dev
         {"sahl", SAHL_VERSION},
         {"scene",
          {{"name", scene.name},
-          {"triangles", prepared.bvh.primitives.size()},
+          {"primitives", prepared.bvh.primitives.size()},
           {"droppedTriangles", scene.droppedTriangles},
           {"materials", scene.materials.size()},
           {"lights", scene.lights.size()},

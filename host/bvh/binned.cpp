@@ -12,9 +12,9 @@ namespace sahl {
 namespace {
 
 constexpr uint BIN_COUNT = 32;
-constexpr uint SWEEP_BELOW = 512;     ///< triangles for which a sweep is as fast as binning
+constexpr uint SWEEP_BELOW = 512;     ///< primitives for which a sweep is as fast as binning
 constexpr uint SUBTREE_SIZE = 16384;  ///< below this a subtree is the work of one thread
-constexpr uint CHUNK_SIZE = 16384;    ///< triangles binned at a time; minima, maxima and counts
+constexpr uint CHUNK_SIZE = 16384;    ///< primitives binned at a time; minima, maxima and counts
                                       ///< come out the same however they are grouped
 
 struct Bin {
@@ -209,7 +209,7 @@ void sweepSmall(const BinnedShared& shared, const Subtree& tree)
     std::copy(range.sorted[0].begin(), range.sorted[0].end(), numbers.begin());
 }
 
-/// Divides `root` until nothing above `size` triangles is left; returns what is left.
+/// Divides `root` until nothing above `size` primitives is left; returns what is left.
 std::vector<Subtree> divideDownTo(const BinnedShared& shared, const Subtree& root, uint size,
                                   unsigned threads)
 {

@@ -1,5 +1,6 @@
-// Axis-aligned boxes of triangles, exact: every bound is one of the corners' own coordinates. The
-// traversal relies on that (a box never starts later than what it encloses), so nothing is padded.
+// Axis-aligned boxes of primitives, to the bit those of primitiveBox() in pathtrace/traverse.glsl.
+// The traversal relies on that (a box never starts later than what it encloses), so nothing is
+// padded.
 #pragma once
 
 #include "shared/scene_types.h"
@@ -36,12 +37,18 @@ inline void grow(Box& box, const Box& other)
     grow(box, other.lo, other.hi);
 }
 
-inline Box boxOf(const Primitive& triangle)
+/// The corners' own coordinates for a triangle, the centre -+ the radius in float for a sphere.
+inline Box boxOf(const Primitive& primitive)
 {
     Box box;
-    grow(box, triangle.p0, triangle.p0);
-    grow(box, triangle.p1, triangle.p1);
-    grow(box, triangle.p2, triangle.p2);
+    if (primitive.shape == SHAPE_SPHERE) {
+        const vec3 radius(primitive.p1.x);
+        grow(box, primitive.p0 - radius, primitive.p0 + radius);
+        return box;
+    }
+    grow(box, primitive.p0, primitive.p0);
+    grow(box, primitive.p1, primitive.p1);
+    grow(box, primitive.p2, primitive.p2);
     return box;
 }
 

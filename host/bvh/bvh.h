@@ -10,7 +10,7 @@
 namespace sahl {
 
 enum class BvhBuild {
-    automatic,  ///< sweep below 200,000 triangles, binned above
+    automatic,  ///< sweep below 200,000 primitives, binned above
     sweep,      ///< every split on all three axes
     binned,     ///< 32 bins on each axis
 };
@@ -19,14 +19,14 @@ struct BvhStatistics {
     uint64_t innerNodes = 0;
     uint64_t leaves = 0;
     uint32_t depth = 0;        ///< inner nodes on the longest way from the root to a leaf
-    uint32_t largestLeaf = 0;  ///< triangles
-    double sahCost = 0;        ///< expected box and triangle tests of a random ray that hits the
+    uint32_t largestLeaf = 0;  ///< primitives
+    double sahCost = 0;        ///< expected box and primitive tests of a random ray that hits the
                                ///< root's box; 0 when that has no area
     double seconds = 0;        ///< to build
     BvhBuild build = BvhBuild::sweep;
 };
 
-/// The tree, and the triangles in the order of its leaves.
+/// The tree, and the primitives in the order of its leaves.
 struct Bvh {
     std::vector<BvhNode> nodes;
     std::vector<Primitive> primitives;
@@ -34,9 +34,10 @@ struct Bvh {
     BvhStatistics statistics;
 };
 
-/// Builds the tree. The result depends on the triangles and `build` alone, not on `threads`.
-/// Depth is at most MAX_STACK_SIZE whatever the input (coincident triangles included).
-/// Throws badInput above MAX_PRIMITIVES.
-Bvh buildBvh(std::span<const Primitive> triangles, BvhBuild build, unsigned threads);
+/// Builds the tree. The result depends on the primitives and `build` alone, not on `threads`.
+/// Depth is at most MAX_STACK_SIZE whatever the input (coincident primitives included).
+/// Throws badInput above MAX_PRIMITIVES, for corners that are not finite, and for spheres whose
+/// radius is not positive or whose box is not finite.
+Bvh buildBvh(std::span<const Primitive> primitives, BvhBuild build, unsigned threads);
 
 }  // namespace sahl

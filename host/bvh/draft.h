@@ -1,4 +1,4 @@
-// The tree while it is being built: ranges of triangles, without boxes. flatten.cpp makes the
+// The tree while it is being built: ranges of primitives, without boxes. flatten.cpp makes the
 // device's nodes of it. Read by the files of this folder only.
 #pragma once
 
@@ -11,42 +11,42 @@
 
 namespace sahl {
 
-/// A subtree of n triangles owns 2n - 1 consecutive slots: its root, those of its left child, those
-/// of its right child. So every thread knows where to write without asking the others, and the
-/// left child of slot s is s + 1.
+/// A subtree of n primitives owns 2n - 1 consecutive slots: its root, those of its left child,
+/// those of its right child. So every thread knows where to write without asking the others, and
+/// the left child of slot s is s + 1.
 struct DraftNode {
-    uint first = 0;  ///< its triangles are order[first .. first + count)
+    uint first = 0;  ///< its primitives are order[first .. first + count)
     uint count = 0;
     uint right = 0;  ///< slot of the right child; 0 for a leaf
 };
 
 struct Draft {
     std::vector<DraftNode> nodes;
-    std::vector<uint> order;  ///< numbers of the triangles, leaf after leaf
+    std::vector<uint> order;  ///< numbers of the primitives, leaf after leaf
 };
 
-/// Expected cost of a node and of a triangle for a ray that reaches them, relative to each other.
-/// A node is one read of 64 bytes and two box tests of about 20 operations, a triangle one read of
+/// Expected cost of a node and of a primitive for a ray that reaches them, relative to each other.
+/// A node is one read of 64 bytes and two box tests of about 20 operations, a primitive one read of
 /// 48 bytes and one test of about 40: near enough to equal on CPUs and GPUs alike.
 constexpr double COST_NODE = 1.0;
-constexpr double COST_TRIANGLE = 1.0;
+constexpr double COST_PRIMITIVE = 1.0;
 
-/// Triangles that fit below a node when at most `levels` inner nodes may follow one another.
+/// Primitives that fit below a node when at most `levels` inner nodes may follow one another.
 inline uint64_t capacity(uint levels)
 {
     return levels < 32 ? uint64_t{MAX_LEAF_SIZE} << levels : uint64_t{MAX_PRIMITIVES};
 }
 
-/// A way to divide a range of triangles in two.
+/// A way to divide a range of primitives in two.
 struct Split {
-    double cost = std::numeric_limits<double>::infinity();  ///< sum of half area times triangles
+    double cost = std::numeric_limits<double>::infinity();  ///< sum of half area times primitives
     int axis = 0;
     uint leftCount = 0;  ///< 0: no split found
     uint bin = 0;        ///< of the binned builder: first bin of the right side
 };
 
 /// Keeps `candidate` if it is cheaper, or as cheap and better balanced: where areas say nothing
-/// (coincident triangles, a line of points) the tree stays shallow.
+/// (coincident primitives, a line of points) the tree stays shallow.
 inline void keepBetter(Split& best, const Split& candidate, uint count)
 {
     auto imbalance = [count](const Split& split) {
@@ -88,6 +88,6 @@ Draft buildSweep(std::span<const Box> boxes, unsigned threads);
 Draft buildBinned(std::span<const Box> boxes, unsigned threads);
 
 /// The tree as the device reads it, with its statistics except `seconds` and `build`.
-Bvh flatten(const Draft& draft, std::span<const Primitive> triangles, std::span<const Box> boxes);
+Bvh flatten(const Draft& draft, std::span<const Primitive> primitives, std::span<const Box> boxes);
 
 }  // namespace sahl

@@ -1,4 +1,4 @@
-// From ranges of triangles to the nodes that the device reads, in depth-first order, so that the
+// From ranges of primitives to the nodes that the device reads, in depth-first order, so that the
 // left child follows its parent in memory and the bits do not depend on who built what when.
 #include "bvh/draft.h"
 
@@ -11,9 +11,9 @@ namespace {
 struct Flat {
     uint ref = REF_NONE;
     Box box;
-    uint depth = 0;        ///< inner nodes on the longest way down
-    double boxes = 0;      ///< half areas of all inner nodes, each times two children
-    double triangles = 0;  ///< half areas of all leaves, each times its triangles
+    uint depth = 0;         ///< inner nodes on the longest way down
+    double boxes = 0;       ///< half areas of all inner nodes, each times two children
+    double primitives = 0;  ///< half areas of all leaves, each times its primitives
 };
 
 Flat flattenLeaf(const DraftNode& node, const Draft& draft, std::span<const Box> boxes, Bvh& bvh)
@@ -21,7 +21,7 @@ Flat flattenLeaf(const DraftNode& node, const Draft& draft, std::span<const Box>
     Flat flat;
     flat.ref = REF_LEAF | (node.first << LEAF_COUNT_BITS) | (node.count - 1);
     for (uint i = 0; i < node.count; i++) grow(flat.box, boxes[draft.order[node.first + i]]);
-    flat.triangles = halfArea(flat.box) * node.count;
+    flat.primitives = halfArea(flat.box) * node.count;
     bvh.statistics.leaves++;
     bvh.statistics.largestLeaf = std::max(bvh.statistics.largestLeaf, node.count);
     return flat;
@@ -44,7 +44,7 @@ Flat flattenSubtree(uint slot, const Draft& draft, std::span<const Box> boxes, B
     grow(flat.box, right.box);
     flat.depth = 1 + std::max(left.depth, right.depth);
     flat.boxes = 2 * halfArea(flat.box) + left.boxes + right.boxes;
-    flat.triangles = left.triangles + right.triangles;
+    flat.primitives = left.primitives + right.primitives;
     return flat;
 }
 
@@ -56,7 +56,7 @@ uint64_t countInnerNodes(uint slot, const Draft& draft)
 
 }  // namespace
 
-Bvh flatten(const Draft& draft, std::span<const Primitive> triangles, std::span<const Box> boxes)
+Bvh flatten(const Draft& draft, std::span<const Primitive> primitives, std::span<const Box> boxes)
 {
     Bvh bvh;
     bvh.statistics.innerNodes = countInnerNodes(0, draft);
@@ -65,10 +65,10 @@ Bvh flatten(const Draft& draft, std::span<const Primitive> triangles, std::span<
     bvh.rootRef = root.ref;
     bvh.statistics.depth = root.depth;
     const double area = halfArea(root.box);
-    bvh.statistics.sahCost = area > 0 ? (root.boxes + root.triangles) / area : 0;
+    bvh.statistics.sahCost = area > 0 ? (root.boxes + root.primitives) / area : 0;
 
-    bvh.primitives.reserve(triangles.size());
-    for (uint number : draft.order) bvh.primitives.push_back(triangles[number]);
+    bvh.primitives.reserve(primitives.size());
+    for (uint number : draft.order) bvh.primitives.push_back(primitives[number]);
     return bvh;
 }
 

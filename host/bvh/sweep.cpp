@@ -11,7 +11,7 @@
 namespace sahl {
 namespace {
 
-/// Below this many triangles a subtree is the work of one thread.
+/// Below this many primitives a subtree is the work of one thread.
 constexpr uint SUBTREE_SIZE = 4096;
 
 SweepRange part(const SweepRange& range, uint offset, uint count)
@@ -55,7 +55,7 @@ void stablePartition(const SweepShared& shared, std::span<uint> sorted, std::spa
     std::copy_n(scratch.begin(), right, sorted.begin() + static_cast<std::ptrdiff_t>(left));
 }
 
-/// Finds the best split of a range of two or more triangles and divides the three orders by it.
+/// Finds the best split of a range of two or more primitives and divides the three orders by it.
 /// Returns the left side's count; `area` is half that of the range's box.
 uint divide(const SweepShared& shared, const SweepRange& range, uint levels, double& area)
 {
@@ -109,7 +109,7 @@ double sweepSubtree(const SweepShared& shared, const SweepRange& range, const Su
         makeLeaf(shared, range, tree);
         Box box;
         for (uint number : range.sorted[0]) grow(box, shared.boxes[number]);
-        return COST_TRIANGLE * halfArea(box) * tree.count;
+        return COST_PRIMITIVE * halfArea(box) * tree.count;
     }
     double area = 0;
     const uint leftCount = divide(shared, range, tree.levels, area);
@@ -120,7 +120,7 @@ double sweepSubtree(const SweepShared& shared, const SweepRange& range, const Su
     cost += sweepSubtree(shared, part(range, leftCount, right.count), right);
 
     // Decided on the way back, when the true cost of dividing is known.
-    const double leafCost = COST_TRIANGLE * area * tree.count;
+    const double leafCost = COST_PRIMITIVE * area * tree.count;
     if (tree.count > MAX_LEAF_SIZE || cost < leafCost) return cost;
     makeLeaf(shared, range, tree);
     return leafCost;

@@ -44,7 +44,7 @@ std::string whyTooLarge(const SceneBytes& bytes, uint64_t unit, uint64_t limit,
 
 const char* sceneArrayName(uint32_t binding)
 {
-    constexpr const char* NAMES[SCENE_BUFFER_COUNT] = {"nodes",     "triangles", "normals",
+    constexpr const char* NAMES[SCENE_BUFFER_COUNT] = {"nodes",     "primitives", "normals",
                                                        "materials", "lights",    "probe"};
     return NAMES[binding];
 }

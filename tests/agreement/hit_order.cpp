@@ -164,6 +164,24 @@ TEST(HitOrder, soupOfAllSizes_sameBitsForHardRays)
     expectSameBits(soup, hardRays(soup, 20'000, 38));
 }
 
+/// Spheres in and through one another, and triangles that cut them; rays at their rims among
+/// others.
+TEST(HitOrder, spheresAmongTriangles_sameBits)
+{
+    std::vector<Primitive> soup = randomSoup(300, 0.2f, 39);
+    Random random(40);
+    for (uint i = 0; i < 300; i++) addSphere(soup, random.inCube(1), random.uniform(0.001f, 0.3f));
+    std::vector<Ray> rays = easyRays(soup, 5'000);
+    for (uint i = 0; i < 5'000; i++) {
+        const Primitive& sphere = soup[300 + random.below(300)];
+        const glm::dvec3 arm = glm::normalize(anyDirection(random));
+        const vec3 rim = sphere.p0 + vec3(arm) * sphere.p1.x;
+        const glm::dvec3 tangent = glm::cross(arm, anyDirection(random));
+        rays.push_back(rayTowards(rim - vec3(glm::normalize(tangent)) * 2.0f, tangent));
+    }
+    expectSameBits(soup, rays);
+}
+
 TEST(HitOrder, coincidentTriangles_smallestNumberWins)
 {
     std::vector<Primitive> triangles;

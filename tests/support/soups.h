@@ -1,4 +1,4 @@
-// Triangles for tests of the tree and of traversal: made from fixed seeds, nice and nasty.
+// Primitives for tests of the tree and of traversal: made from fixed seeds, nice and nasty.
 #pragma once
 
 #include "shared/scene_types.h"
@@ -41,6 +41,12 @@ inline void addTriangle(std::vector<Primitive>& triangles, vec3 p0, vec3 p1, vec
 {
     uint number = static_cast<uint>(triangles.size());
     triangles.push_back({p0, number, p1, 0, p2, SHAPE_FLAT});
+}
+
+inline void addSphere(std::vector<Primitive>& primitives, vec3 centre, float radius)
+{
+    uint number = static_cast<uint>(primitives.size());
+    primitives.push_back({centre, number, {radius, 0, 0}, 0, {0, 0, 0}, SHAPE_SPHERE});
 }
 
 /// `count` triangles of about `size`, anywhere in the cube of half edge 1.

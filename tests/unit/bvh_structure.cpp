@@ -1,4 +1,4 @@
-// What every tree must be, whatever the triangles: complete, exact, bounded, the same each time.
+// What every tree must be, whatever the primitives: complete, exact, bounded, the same each time.
 #include "bvh/box.h"
 #include "bvh/bvh.h"
 #include "support/soups.h"
@@ -13,6 +13,7 @@
 namespace sahl {
 namespace {
 
+using testing::addSphere;
 using testing::addTriangle;
 using testing::Random;
 using testing::randomSoup;
@@ -94,6 +95,19 @@ std::vector<Primitive> extremes(uint count)
     return triangles;
 }
 
+/// Spheres of very different sizes, in and beside one another, among triangles.
+std::vector<Primitive> spheres(uint count)
+{
+    Random random(11);
+    std::vector<Primitive> primitives = randomSoup(count, 0.1f, 12);
+    for (uint i = 0; i < count; i++) {
+        const float radius =
+            std::ldexp(1 + random.uniform(), static_cast<int>(random.below(40)) - 30);
+        addSphere(primitives, random.inCube(i % 3 == 0 ? 1000.0f : 1.0f), radius);
+    }
+    return primitives;
+}
+
 std::vector<Named> nastyInputs()
 {
     std::vector<Primitive> oneFarAway = randomSoup(3000, 0.01f, 2);
@@ -104,6 +118,7 @@ std::vector<Named> nastyInputs()
             {"soup", randomSoup(20'000, 0.05f, 1)},
             {"large triangles", randomSoup(3000, 2.0f, 5)},
             {"torus", testing::torus(120, 60)},
+            {"spheres", spheres(5000)},
             {"100,000 coincident", coincident(100'000)},
             {"equal centres", nested(20'000)},
             {"doubling sizes", doubling(20'000)},
@@ -131,7 +146,7 @@ public:
         return all;
     }
 
-    bool everyTriangleOnce() const
+    bool everyPrimitiveOnce() const
     {
         return std::all_of(seen_.begin(), seen_.end(), [](int count) { return count == 1; });
     }
@@ -158,8 +173,13 @@ private:
         Box box;
         for (uint i = first; i < first + count; i++) {
             seen_.at(i)++;
-            for (const vec3& p : {bvh_.primitives[i].p0, bvh_.primitives[i].p1, bvh_.primitives[i].p2})
-                grow(box, p, p);
+            const Primitive& t = bvh_.primitives[i];
+            if (t.shape == SHAPE_SPHERE) {
+                const vec3 radius(t.p1.x);
+                grow(box, t.p0 - radius, t.p0 + radius);
+                continue;
+            }
+            for (const vec3& p : {t.p0, t.p1, t.p2}) grow(box, p, p);
         }
         return box;
     }
@@ -185,7 +205,7 @@ void expectSound(const std::vector<Primitive>& triangles, BvhBuild build)
         ASSERT_EQ(std::memcmp(&t, &triangles[t.number], sizeof t), 0);
     Walk walk(bvh);
     walk.visit(bvh.rootRef, 0);
-    EXPECT_TRUE(walk.everyTriangleOnce());
+    EXPECT_TRUE(walk.everyPrimitiveOnce());
     EXPECT_EQ(walk.wrongBoxes, 0u);
     EXPECT_LE(walk.depth, MAX_STACK_SIZE);
     EXPECT_LE(walk.largestLeaf, MAX_LEAF_SIZE);
@@ -313,7 +333,61 @@ TEST(Bvh, refusesCornersThatAreNotFinite)
             FAIL() << "accepted";
         } catch (const Error& error) {
             EXPECT_EQ(error.kind, ErrorKind::badInput);
-            EXPECT_NE(std::string(error.what()).find("triangle 7 "), std::string::npos);
+            EXPECT_NE(std::string(error.what()).find("primitive 7 "), std::string::npos);
+        }
+    }
+}
+
+/// In double: a point of a sphere lies in its box, except for the rounding of the box's own
+/// corners.
+TEST(Bvh, boxesEncloseSpheres)
+{
+    std::vector<Primitive> all;
+    Random random(5);
+    for (uint i = 0; i < 2000; i++) {
+        addSphere(all, random.inCube(10),
+                  std::ldexp(1 + random.uniform(), int(random.below(24)) - 12));
+    }
+    for (const Primitive& sphere : all) {
+        const Box box = boxOf(sphere);
+        for (int axis = 0; axis < 3; axis++) {
+            const double centre = double{sphere.p0[axis]}, radius = double{sphere.p1.x};
+            const double rounding = 0x1p-24 * (std::abs(centre) + radius);
+            EXPECT_NEAR(box.lo[axis], centre - radius, rounding);
+            EXPECT_NEAR(box.hi[axis], centre + radius, rounding);
+        }
+    }
+}
+
+TEST(Bvh, twoSpheresApart_haveTheirBoxesInOneNode)
+{
+    std::vector<Primitive> apart;
+    addSphere(apart, {0, 0, 0}, 0.5f);
+    addSphere(apart, {0, 0, 9}, 2);
+    const Bvh bvh = buildBvh(apart, BvhBuild::sweep, 1);
+    ASSERT_EQ(bvh.nodes.size(), 1u);
+    EXPECT_EQ(bvh.nodes[0].lo0, vec3(-0.5f, -0.5f, -0.5f));
+    EXPECT_EQ(bvh.nodes[0].hi0, vec3(0.5f, 0.5f, 0.5f));
+    EXPECT_EQ(bvh.nodes[0].lo1, vec3(-2, -2, 7));
+    EXPECT_EQ(bvh.nodes[0].hi1, vec3(2, 2, 11));
+}
+
+TEST(Bvh, refusesSpheresWithoutASoundRadius)
+{
+    const std::pair<float, const char*> bad[] = {
+        {0.0f, "primitive 3 is a sphere of radius 0"},
+        {-1.0f, "the radius must be positive"},
+        {std::numeric_limits<float>::quiet_NaN(), "positive"},
+        {std::numeric_limits<float>::max(), "beyond the range"}};
+    for (const auto& [radius, message] : bad) {
+        std::vector<Primitive> primitives = randomSoup(3, 0.1f, 1);
+        addSphere(primitives, vec3(3e38f, 0, 0), radius);
+        try {
+            buildBvh(primitives, BvhBuild::sweep, 1);
+            ADD_FAILURE() << "accepted " << radius;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind, ErrorKind::badInput);
+            EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
         }
     }
 }
