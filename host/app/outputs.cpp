@@ -60,11 +60,11 @@ void refuseToReplaceInputs(const std::vector<fs::path>& outputs)
 }
 
 void writeImage(const Image& image, const OutputOptions& options, const fs::path& path,
-                const ImageMetadata& metadata)
+                const ImageMetadata& metadata, const std::vector<ImageChannel>& channels)
 {
     std::string extension = extensionOf(path);
     if (extension == ".exr") {
-        writeFileAtomically(path, encodeExr(image, metadata));
+        writeFileAtomically(path, encodeExr(image, metadata, channels));
     } else if (extension == ".pfm") {
         writeFileAtomically(path, encodePfm(image));
     } else {
@@ -73,14 +73,15 @@ void writeImage(const Image& image, const OutputOptions& options, const fs::path
     }
 }
 
-void writeOutputs(const Film& film, const OutputOptions& options, const ImageMetadata& metadata)
+void writeOutputs(const Film& film, const OutputOptions& options, const ImageMetadata& metadata,
+                  const std::vector<ImageChannel>& channels)
 {
     Image image = meanImage(film);
     std::optional<Error> failure;
     bool linearWritten = false;
     for (const fs::path& path : options.paths) {
         try {
-            writeImage(image, options, path, metadata);
+            writeImage(image, options, path, metadata, channels);
             linearWritten = linearWritten || extensionOf(path) != ".png";
         } catch (const Error& error) {
             if (!failure) failure = error;

@@ -12,6 +12,7 @@ namespace sahl {
 struct OutputOptions {
     std::vector<fs::path> paths;  ///< .exr, .pfm (linear) or .png (tone mapped)
     ToneMap toneMap = ToneMap::percentile;
+    bool firstHits = false;  ///< albedo, normals, depth and so on as layers of EXR files
     float exposure = 0;  ///< [stops]
 };
 
@@ -23,12 +24,14 @@ void checkPicturePaths(const std::vector<fs::path>& paths);
 void refuseToReplaceInputs(const std::vector<fs::path>& outputs);
 
 /// Writes a picture, in the format that the extension names.
+///   channels  beside the picture, in an EXR only
 void writeImage(const Image& image, const OutputOptions& options, const fs::path& path,
-                const ImageMetadata& metadata);
+                const ImageMetadata& metadata, const std::vector<ImageChannel>& channels = {});
 
 /// Writes the film's mean picture to every path, each file complete or not at all. When one fails
 /// the others are still written; then the first failure is thrown. A linear picture that none of
 /// them holds is then put into the folder for temporary files, and the failure's text says so.
-void writeOutputs(const Film& film, const OutputOptions& options, const ImageMetadata& metadata);
+void writeOutputs(const Film& film, const OutputOptions& options, const ImageMetadata& metadata,
+                  const std::vector<ImageChannel>& channels);
 
 }  // namespace sahl

@@ -7,6 +7,7 @@
 #include "app/outputs.h"
 #include "app/progress.h"
 #include "app/stats.h"
+#include "film/layers.h"
 #include "render/prepare.h"
 #include "sahl_version.h"
 #include "util/error.h"
@@ -51,6 +52,9 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
             "--exposure", setExposure, withDefault("for --tone-map srgb [stops], -100 to 100", "0"))
         ->type_name("X")
         ->group("Output");
+    addFlag(command, "--aovs", output.firstHits,
+            "albedo, normals, depth, position and ids as layers of\nevery .exr (scenes/README.md)")
+        ->group("Output");
     command
         .add_option("--stats", options.statsPath,
                     withDefault("write statistics as JSON (docs/stats.md)", "none"))
@@ -79,6 +83,19 @@ std::vector<fs::path> checkOutputs(const RenderOptions& options)
     requireWritable(options.statsPath);
     outputs.push_back(options.statsPath);
     return outputs;
+}
+
+/// The EXR's channels beside the light: sample counts and variance, and what camera rays meet.
+std::vector<ImageChannel> channelsOf(const RenderOptions& options, const PreparedScene& prepared,
+                                     const Film& film, Device& device)
+{
+    std::vector<ImageChannel> channels = statisticsChannels(film);
+    if (!options.output.firstHits) return channels;
+    uint32_t samples = std::min(BLOCK_SIZE, prepared.scene.settings.spp);
+    auto layers = firstHitChannels(renderFirstHits(device, film.width, film.height, samples), samples,
+                                   prepared.scene.objectStarts);
+    channels.insert(channels.end(), layers.begin(), layers.end());
+    return channels;
 }
 
 ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_t samplesTaken,
@@ -175,7 +192,8 @@ int runRender(RenderOptions& options)
 
     uint32_t samplesTaken = std::min(settings.spp, result.passes * BLOCK_SIZE);
     writeOutputs(result.film, options.output,
-                 metadataOf(prepared.scene, result, samplesTaken, *device));
+                 metadataOf(prepared.scene, result, samplesTaken, *device),
+                 channelsOf(options, prepared, result.film, *device));
     seconds.write = watch.lap();
     seconds.total = watch.total();
     if (!options.statsPath.empty()) {

@@ -48,6 +48,11 @@ public:
         }
     }
 
+    void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override
+    {
+        reference::renderFirstHits(scene_, tile, threads_, pixels);
+    }
+
     uint32_t maxTilePixels() const override { return 1u << 16; }
 
     DeviceStatistics statistics() const override { return statistics_; }

@@ -68,6 +68,10 @@ public:
     /// Throws deviceLost.
     virtual void render(const TileRequest& tile, std::span<PixelBlock> blocks) = 0;
 
+    /// What the camera rays of the tile's samples meet first: rays as in render(), at most BLOCK_SIZE
+    /// samples from sample 0 on. pixels.size() == width * height. Throws as render() does.
+    virtual void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) = 0;
+
     /// Largest width * height that render() takes.
     virtual uint32_t maxTilePixels() const = 0;
 

@@ -56,13 +56,17 @@ public:
     DeviceInfo info() const override;
     void setScene(const DeviceScene& scene) override;
     void render(const TileRequest& tile, std::span<PixelBlock> blocks) override;
+    void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override;
     uint32_t maxTilePixels() const override { return tilePixelLimit(context_->physical); }
     DeviceStatistics statistics() const override { return statistics_; }
 
 private:
+    ComputePipeline makePipeline(const std::string& kernel, uint32_t bindingCount) const;
     void preparePipeline(bool texel, uint32_t stackSize);
     void prepareTileBuffers(size_t pixels);
-    void bindAll();
+    void prepareFirstHits(size_t pixels);
+    void bindAll(ComputePipeline& pipeline);
+    void renderBlocks(const TileRequest& tile, std::span<PixelBlock> blocks);
     void requireTile(const TileRequest& tile, size_t blockCount) const;
     void runRound(const TileRequest& tile, uint32_t dispatches, bool begin,
                   std::span<PixelBlock> blocks);
@@ -75,11 +79,15 @@ private:
     std::array<uint32_t, 2> group_;
     uint32_t minStepBudget_;
     ComputePipeline pipeline_;
+    ComputePipeline firstHitsPipeline_;          // made when first asked for
+    const ComputePipeline* active_ = nullptr;    // the one of the two that dispatches use
     bool pipelineTexel_ = false;
     uint32_t pipelineStack_ = 0;  // 0: no pipeline yet
     std::unique_ptr<VulkanScene> scene_;
     Buffer pixels_, suspended_;   // as large as the largest tile so far
-    bool bound_ = false;          // the descriptor set holds the buffers above
+    Buffer firstHits_;
+    bool bound_ = false;           // pipeline_'s descriptor set holds the buffers above
+    bool firstHitsBound_ = false;  // likewise
     double secondsPerPixel_ = 0;  // of one dispatch, as last measured; 0 before the first
     uint32_t cutRounds_ = 0;      // in a row, at the smallest step budget
     DeviceStatistics statistics_;
@@ -106,6 +114,7 @@ void VulkanDevice::setScene(const DeviceScene& scene)
 {
     scene_.reset();  // first, so that there never need be room for two scenes
     bound_ = false;
+    firstHitsBound_ = false;
     uint32_t stackSize = chooseStackSize(scene.treeDepth);
     auto start = std::chrono::steady_clock::now();
     auto uploaded = std::make_unique<VulkanScene>(uploadScene(*context_, scene, options_.buffers));
@@ -116,27 +125,40 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     statistics_.texelBuffers = scene_->texel;
 }
 
-void VulkanDevice::preparePipeline(bool texel, uint32_t stackSize)
+/// A pipeline of the kernel `kernel`_texel or `kernel`_storage, for the stack and buffers in force.
+ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t bindingCount) const
 {
-    if (pipelineStack_ == stackSize && pipelineTexel_ == texel) return;
     PipelineRequest request;
-    request.name = texel ? "path_texel" : "path_storage";
+    request.name = kernel + (pipelineTexel_ ? "_texel" : "_storage");
     request.spirv = kernelSpirv(request.name);
-    request.bindings.assign(SCENE_BUFFER_COUNT, texel ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
-                                                      : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
-    request.bindings.resize(BINDING_COUNT, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+    request.bindings.assign(SCENE_BUFFER_COUNT, pipelineTexel_
+                                                    ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+                                                    : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+    request.bindings.resize(bindingCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     request.bindings[BINDING_FRAME] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     request.pushConstantBytes = sizeof(Dispatch);
     request.specialisation.resize(SPEC_COUNT);
     request.specialisation[SPEC_GROUP_WIDTH] = group_[0];
     request.specialisation[SPEC_GROUP_HEIGHT] = group_[1];
-    request.specialisation[SPEC_STACK_SIZE] = stackSize;
+    request.specialisation[SPEC_STACK_SIZE] = pipelineStack_;
     request.specialisation[SPEC_ORDER] = options_.traversalOrder;
     request.specialisation[SPEC_EXACT_MATH] = statistics_.exactMath ? 1 : 0;
-    pipelineStack_ = 0;
-    pipeline_ = createComputePipeline(*context_, request);
+    return createComputePipeline(*context_, request);
+}
+
+void VulkanDevice::preparePipeline(bool texel, uint32_t stackSize)
+{
+    if (pipelineStack_ == stackSize && pipelineTexel_ == texel) return;
     pipelineStack_ = stackSize;
     pipelineTexel_ = texel;
+    firstHitsPipeline_ = {};
+    firstHitsBound_ = false;
+    try {
+        pipeline_ = makePipeline("path", BINDING_COUNT);
+    } catch (...) {
+        pipelineStack_ = 0;
+        throw;
+    }
 }
 
 void VulkanDevice::prepareTileBuffers(size_t pixels)
@@ -145,6 +167,7 @@ void VulkanDevice::prepareTileBuffers(size_t pixels)
     uint64_t suspendedBytes = pixels * sizeof(SuspendedPath);
     if (pixels_.bytes >= pixelBytes && suspended_.bytes >= suspendedBytes) return;
     bound_ = false;
+    firstHitsBound_ = false;
     pixels_ = {};
     suspended_ = {};
     VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
@@ -152,15 +175,33 @@ void VulkanDevice::prepareTileBuffers(size_t pixels)
     suspended_ = createBuffer(*context_, {"suspended", suspendedBytes, usage, HostUse::none});
 }
 
-void VulkanDevice::bindAll()
+void VulkanDevice::prepareFirstHits(size_t pixels)
 {
-    std::array<const Buffer*, BINDING_COUNT> buffers = {};
+    uint32_t storageBuffers = (pipelineTexel_ ? 0 : SCENE_BUFFER_COUNT) + 3;
+    uint32_t allowed = context_->physical.properties.limits.maxPerStageDescriptorStorageBuffers;
+    if (storageBuffers > allowed)
+        throw Error(ErrorKind::noDevice,
+                    fmt::format("'{}' binds {} storage buffers at once; albedo, normals and the like "
+                                "need {}; try --device cpu",
+                                context_->physical.name, allowed, storageBuffers));
+    if (firstHitsPipeline_.name.empty())
+        firstHitsPipeline_ = makePipeline("first_hits", BINDING_FIRST_HITS + 1);
+    if (firstHits_.bytes >= pixels * sizeof(FirstHits)) return;
+    firstHitsBound_ = false;
+    firstHits_ = {};
+    firstHits_ = createBuffer(*context_, {"first hits", pixels * sizeof(FirstHits),
+                                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HostUse::readBack});
+}
+
+void VulkanDevice::bindAll(ComputePipeline& pipeline)
+{
+    std::array<const Buffer*, BINDING_FIRST_HITS + 1> buffers = {};
     for (uint32_t i = 0; i < SCENE_BUFFER_COUNT; i++) buffers[i] = &scene_->arrays[i];
     buffers[BINDING_FRAME] = &scene_->frame;
     buffers[BINDING_PIXELS] = &pixels_;
     buffers[BINDING_SUSPENDED] = &suspended_;
-    bindBuffers(*context_, pipeline_, buffers);
-    bound_ = true;
+    buffers[BINDING_FIRST_HITS] = &firstHits_;
+    bindBuffers(*context_, pipeline, std::span(buffers).first(pipeline.bindings.size()));
 }
 
 void VulkanDevice::requireTile(const TileRequest& tile, size_t blockCount) const
@@ -184,10 +225,33 @@ void VulkanDevice::render(const TileRequest& tile, std::span<PixelBlock> blocks)
     auto start = std::chrono::steady_clock::now();
     requireTile(tile, blocks.size());
     prepareTileBuffers(blocks.size());
-    if (!bound_) bindAll();
+    if (!bound_) bindAll(pipeline_);
+    bound_ = true;
+    active_ = &pipeline_;
+    renderBlocks(tile, blocks);
+    statistics_.renderSeconds += secondsSince(start);
+}
+
+void VulkanDevice::renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels)
+{
+    requireTile(tile, pixels.size());
+    prepareTileBuffers(pixels.size());
+    prepareFirstHits(pixels.size());
+    if (!firstHitsBound_) bindAll(firstHitsPipeline_);
+    firstHitsBound_ = true;
+    active_ = &firstHitsPipeline_;
+    std::vector<PixelBlock> blocks(pixels.size());  // who has how many samples
+    renderBlocks(tile, blocks);
+    runCommands(*context_, "read first hits", [&](VkCommandBuffer commands) {
+        recordReadBack(commands, firstHits_, pixels.size_bytes());
+    });
+    readBuffer(firstHits_, std::as_writable_bytes(pixels));
+}
+
+void VulkanDevice::renderBlocks(const TileRequest& tile, std::span<PixelBlock> blocks)
+{
     runRound(tile, tile.sampleCount, true, blocks);
     finishTile(tile, blocks);
-    statistics_.renderSeconds += secondsSince(start);
 }
 
 /// Dispatches until every pixel has all its samples: paths that ran out of steps go on, pixels in
@@ -276,7 +340,7 @@ void VulkanDevice::submit(const TileRequest& tile, uint32_t dispatches, bool beg
         }
         for (uint32_t i = 0; i < dispatches; i++) {
             if (i > 0) recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE);
-            recordDispatch(commands, pipeline_, std::as_bytes(std::span(&job, 1)), groups);
+            recordDispatch(commands, *active_, std::as_bytes(std::span(&job, 1)), groups);
         }
         // Commands submitted later see only what a barrier made visible.
         if (end)

@@ -1,4 +1,4 @@
-// EXR out: three float32 channels in zip-compressed scanlines, through OpenEXR into memory.
+// EXR out: float32 channels in zip-compressed scanlines, through OpenEXR into memory.
 #include "image/image.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -36,7 +36,8 @@ private:
 
 }  // namespace
 
-std::vector<uint8_t> encodeExr(const Image& image, const ImageMetadata& metadata)
+std::vector<uint8_t> encodeExr(const Image& image, const ImageMetadata& metadata,
+                               const std::vector<ImageChannel>& channels)
 {
     assert(image.width > 0 && image.height > 0);
     assert(image.rgb.size() == size_t{3} * image.width * image.height);
@@ -52,6 +53,13 @@ std::vector<uint8_t> encodeExr(const Image& image, const ImageMetadata& metadata
         frame.insert(names[c],
                      Imf::Slice::Make(Imf::FLOAT, image.rgb.data() + c, header.dataWindow(),
                                       xStride, xStride * image.width));
+    }
+    for (const ImageChannel& channel : channels) {
+        assert(channel.values.size() == size_t{image.width} * image.height);
+        header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
+        frame.insert(channel.name,
+                     Imf::Slice::Make(Imf::FLOAT, channel.values.data(), header.dataWindow(),
+                                      sizeof(float), sizeof(float) * image.width));
     }
     std::vector<uint8_t> bytes;
     MemoryOutput stream(bytes);

@@ -31,8 +31,16 @@ using ImageMetadata = std::map<std::string, std::string>;
 /// Non-finite values are kept: what they mean is the caller's matter.
 Image readImage(const fs::path& path);
 
+/// One more channel of an EXR file, as large as the picture.
+struct ImageChannel {
+    std::string name;           ///< layer and channel, "albedo.R"
+    std::vector<float> values;  ///< width * height, top row first
+};
+
 /// Encoders: the complete file in memory, to be written by writeFileAtomically.
-std::vector<uint8_t> encodeExr(const Image& image, const ImageMetadata& metadata);  ///< float32, ZIP
+/// EXR: float32, ZIP; `channels` beside R, G and B.
+std::vector<uint8_t> encodeExr(const Image& image, const ImageMetadata& metadata,
+                               const std::vector<ImageChannel>& channels = {});
 std::vector<uint8_t> encodePng(const Image8& image, const ImageMetadata& metadata);
 std::vector<uint8_t> encodePfm(const Image& image);
 

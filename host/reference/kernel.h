@@ -42,6 +42,19 @@ struct Kernel {
 
 #include "pathtrace/pathtrace.glsl"
 
+    /// Adds what the camera ray of a sample meets first.
+    void renderFirstHit(uint x, uint y, uint sampleIndex, bool isFirst, FirstHits& sums)
+    {
+        faults = 0;
+        PathState path = beginPath(x, y, sampleIndex);
+        Traversal walk = beginPathTraversal(path);
+        while (path.phase != PHASE_ENDED && faults == 0) {
+            stepsLeft = 0xffffffffu;
+            advanceFirstHit(path, walk);
+        }
+        addFirstHit(path, walk, isFirst, sums);
+    }
+
     /// Renders sample `sampleIndex` of pixel (x, y) and adds it to the block.
     void renderSample(uint x, uint y, uint sampleIndex, PixelBlock& block)
     {

@@ -8,22 +8,30 @@ namespace sahl::reference {
 namespace {
 
 template <uint Order>
+Kernel<Order> kernelFor(const DeviceScene& scene)
+{
+    Kernel<Order> kernel = {};
+    kernel.nodes = scene.nodes;
+    kernel.primitives = scene.primitives;
+    kernel.triangleNormals = scene.triangleNormals;
+    kernel.materials = scene.materials;
+    kernel.lights = scene.lights;
+    kernel.probeTexels = scene.probeTexels;
+    kernel.frame = scene.frame;
+    return kernel;
+}
+
+template <uint Order>
 void renderTileInOrder(const DeviceScene& scene, const TileRequest& tile, unsigned threads,
                        std::span<PixelBlock> blocks)
 {
     parallelFor(tile.height, threads, [&](size_t row) {
-        Kernel<Order> kernel = {};
-        kernel.nodes = scene.nodes;
-        kernel.primitives = scene.primitives;
-        kernel.triangleNormals = scene.triangleNormals;
-        kernel.materials = scene.materials;
-        kernel.lights = scene.lights;
-        kernel.probeTexels = scene.probeTexels;
-        kernel.frame = scene.frame;
+        auto kernel = kernelFor<Order>(scene);
         for (uint x = 0; x < tile.width; x++) {
             PixelBlock block = {};
             for (uint i = 0; i < tile.sampleCount; i++) {
-                kernel.renderSample(tile.x + x, tile.y + static_cast<uint>(row), tile.firstSample + i, block);
+                kernel.renderSample(tile.x + x, tile.y + static_cast<uint>(row),
+                                    tile.firstSample + i, block);
             }
             blocks[row * tile.width + x] = block;
         }
@@ -31,6 +39,22 @@ void renderTileInOrder(const DeviceScene& scene, const TileRequest& tile, unsign
 }
 
 }  // namespace
+
+void renderFirstHits(const DeviceScene& scene, const TileRequest& tile, unsigned threads,
+                     std::span<FirstHits> pixels)
+{
+    parallelFor(tile.height, threads, [&](size_t row) {
+        auto kernel = kernelFor<ORDER_NEAR_FIRST>(scene);
+        for (uint x = 0; x < tile.width; x++) {
+            FirstHits sums = kernel.noFirstHits();
+            for (uint i = 0; i < tile.sampleCount; i++) {
+                kernel.renderFirstHit(tile.x + x, tile.y + static_cast<uint>(row),
+                                      tile.firstSample + i, i == 0, sums);
+            }
+            pixels[row * tile.width + x] = sums;
+        }
+    });
+}
 
 void renderTile(const DeviceScene& scene, const TileRequest& tile, uint order, unsigned threads,
                 std::span<PixelBlock> blocks)

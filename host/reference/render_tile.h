@@ -9,6 +9,10 @@ namespace sahl::reference {
 void renderTile(const DeviceScene& scene, const TileRequest& tile, uint order, unsigned threads,
                 std::span<PixelBlock> blocks);
 
+/// See Device::renderFirstHits.
+void renderFirstHits(const DeviceScene& scene, const TileRequest& tile, unsigned threads,
+                     std::span<FirstHits> pixels);
+
 /// Compiler and version, as the "driver" of the CPU.
 std::string compilerName();
 

@@ -98,4 +98,20 @@ RenderResult renderPicture(Device& device, const RenderPlan& plan,
     return result;
 }
 
+std::vector<FirstHits> renderFirstHits(Device& device, uint32_t width, uint32_t height,
+                                       uint32_t samples)
+{
+    std::vector<FirstHits> picture(size_t{width} * height);
+    for (TileRequest tile : tilesOf(width, height, 0, device.maxTilePixels())) {
+        tile.sampleCount = samples;
+        std::vector<FirstHits> pixels(size_t{tile.width} * tile.height);
+        device.renderFirstHits(tile, pixels);
+        for (uint32_t row = 0; row < tile.height; row++) {
+            std::copy_n(pixels.begin() + row * tile.width, tile.width,
+                        picture.begin() + (tile.y + row) * width + tile.x);
+        }
+    }
+    return picture;
+}
+
 }  // namespace sahl

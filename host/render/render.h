@@ -37,6 +37,11 @@ struct RenderResult {
 RenderResult renderPicture(Device& device, const RenderPlan& plan,
                            const std::function<void(const RenderProgress&)>& report);
 
+/// What the first `samples` (at most BLOCK_SIZE) camera rays of every pixel meet; width * height,
+/// top row first. The device's scene must be set.
+std::vector<FirstHits> renderFirstHits(Device& device, uint32_t width, uint32_t height,
+                                       uint32_t samples);
+
 /// The tiles of a picture, row by row: no tile has more than maxPixels.
 std::vector<TileRequest> tilesOf(uint32_t width, uint32_t height, uint32_t tileSize, uint32_t maxPixels);
 

@@ -1,4 +1,5 @@
 // The megakernel: every invocation owns one pixel of the tile and takes it up to one sample further.
+// With SAHL_FIRST_HITS a sample ends at what the camera ray meets, and goes into `firstHits`.
 //
 // A path that runs out of steps is saved and goes on in the next dispatch. An invocation in which a
 // fault was seen (a loop cut short by the driver) changes nothing but the pixel's `faults`, so that
@@ -18,6 +19,12 @@ layout(std430, set = 0, binding = BINDING_SUSPENDED) buffer SuspendedBlock
 {
     SuspendedPath suspended[];
 };
+#ifdef SAHL_FIRST_HITS
+layout(std430, set = 0, binding = BINDING_FIRST_HITS) buffer FirstHitsBlock
+{
+    FirstHits firstHits[];
+};
+#endif
 layout(push_constant) uniform DispatchBlock
 {
     Dispatch job;
@@ -72,7 +79,11 @@ void main()
         path = beginPath(job.tileX + at.x, job.tileY + at.y, job.firstSample + block.samplesDone);
         walk = beginPathTraversal(path);
     }
+#ifdef SAHL_FIRST_HITS
+    advanceFirstHit(path, walk);
+#else
     advancePath(path, walk);
+#endif
 
     bool ended = path.phase == PHASE_ENDED;
     if (!ended && faults == 0u) {
@@ -85,7 +96,18 @@ void main()
         return;
     }
     block.faults = 0u;
-    if (ended) addSample(path, block);
+    if (ended) {
+#ifdef SAHL_FIRST_HITS
+        bool isFirst = block.samplesDone == 0u;
+        FirstHits sums = firstHits[index];
+        if (isFirst) sums = noFirstHits();
+        addFirstHit(path, walk, isFirst, sums);
+        firstHits[index] = sums;
+        block.samplesDone++;
+#else
+        addSample(path, block);
+#endif
+    }
     block.status = ended ? BLOCK_IDLE : BLOCK_SUSPENDED;
     pixels[index] = block;
 }

@@ -7,7 +7,8 @@
 
 namespace sahl {
 
-/// SPIR-V of a kernel: "path_texel" or "path_storage" (see kernels/device.glsl), or "math_probe".
+/// SPIR-V of a kernel: "path_texel", "path_storage", "first_hits_texel", "first_hits_storage" (see
+/// kernels/path.comp), or "math_probe".
 std::span<const uint32_t> kernelSpirv(std::string_view name);
 
 }  // namespace sahl

@@ -120,7 +120,7 @@ BsdfSample sampleBsdf(Material material, SurfaceInteraction isect, vec3 dir, flo
         // Radiance is compressed into a smaller solid angle in the denser medium: 1 / eta^2.
         float eta = isect.front ? material.eta : quotient(1.0f, material.eta);
         vec3 tint = material.baseColor * quotient(1.0f, eta * eta);
-        sampleFresnel(isect, dir, eta, material.eta, tint, u.x, bs);
+        sampleFresnel(isect, dir, eta, isect.front ? material.eta : 1.0f, tint, u.x, bs);
     } else {
         sampleReportMaterial(material, isect, dir, u, bs);
     }

@@ -33,3 +33,4 @@ CONST float RAY_INFINITY = 3.0e38f;
 #include "pathtrace/light.glsl"
 #include "pathtrace/path.glsl"
 #include "pathtrace/film.glsl"
+#include "pathtrace/first_hits.glsl"

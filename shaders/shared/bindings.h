@@ -18,7 +18,8 @@ SHARED_CONST uint SCENE_BUFFER_COUNT = 6u;
 SHARED_CONST uint BINDING_FRAME = 6u;      // uniform buffer, Frame
 SHARED_CONST uint BINDING_PIXELS = 7u;     // storage buffer, PixelBlock[] of the tile
 SHARED_CONST uint BINDING_SUSPENDED = 8u;  // storage buffer, SuspendedPath[] of the tile
-SHARED_CONST uint BINDING_COUNT = 9u;
+SHARED_CONST uint BINDING_COUNT = 9u;      // of the path kernels
+SHARED_CONST uint BINDING_FIRST_HITS = 9u; // storage buffer, FirstHits[] of the tile: first_hits only
 
 // Specialisation constants.
 SHARED_CONST uint SPEC_GROUP_WIDTH = 0u;   // workgroup shape [invocations]

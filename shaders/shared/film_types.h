@@ -38,6 +38,22 @@ GPU_STRUCT_SIZE(PixelBlock, 64);
 GPU_FIELD(PixelBlock, digest, 16);
 GPU_FIELD(PixelBlock, faults, 52);
 
+// What the camera rays of a pixel met first: sums over the samples that hit something, for the pictures
+// that go along with the light (albedo, normals, depth, position).
+struct FirstHits
+{
+    vec3 albedo;
+    float depth;     // distance along the ray [m]
+    vec3 ns;         // shading normal, on the viewer's side
+    uint hits;       // samples that hit something
+    vec3 ng;         // geometric normal, on the viewer's side
+    uint number;     // primitive that the first sample hit, or NO_HIT
+    vec3 position;   // world space [m]
+    uint material;   // of that primitive, or NO_HIT
+};
+GPU_STRUCT_SIZE(FirstHits, 64);
+GPU_FIELD(FirstHits, hits, 28);
+
 SHARED_CONST uint MAX_SUSPENDED_STACK = 64u; // = MAX_STACK_SIZE of scene_types.h
 
 SHARED_CONST uint PHASE_EXTEND = 0u;  // the path's ray looks for the closest hit

@@ -82,6 +82,23 @@ void expectSameLight(const Film& a, const Film& b)
     EXPECT_EQ(a.digest, b.digest);
 }
 
+TEST_F(SameBits, ofFirstHits)
+{
+    TileRequest tile = {0, 0, WIDTH, HEIGHT, 0, BLOCK_SIZE};
+    std::vector<FirstHits> expected(WIDTH * HEIGHT), found(WIDTH * HEIGHT);
+    auto cpu = makeCpuDevice({});
+    cpu->setScene(scene().deviceScene());
+    cpu->renderFirstHits(tile, expected);
+    for (uint32_t steps : {0u, 29u}) {
+        DeviceOptions options;
+        options.stepBudget = steps;
+        auto device = openFirstDevice(options);
+        device->setScene(scene().deviceScene());
+        device->renderFirstHits(tile, found);
+        EXPECT_EQ(std::memcmp(found.data(), expected.data(), found.size() * sizeof(FirstHits)), 0);
+    }
+}
+
 TEST_F(SameBits, withExactDivisionAndRoot)
 {
     DeviceOptions options;

@@ -106,6 +106,10 @@ TEST_F(DeviceTest, verifyFindsTheFirstPixelSampleAndBounceOfADifference)
         {
             inner->render(tile, blocks);
         }
+        void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override
+        {
+            inner->renderFirstHits(tile, pixels);
+        }
         uint32_t maxTilePixels() const override { return inner->maxTilePixels(); }
         DeviceStatistics statistics() const override { return inner->statistics(); }
     };
