@@ -21,7 +21,8 @@ DeviceScene PreparedScene::deviceScene() const
     view.frame.maxBounces = scene.settings.maxBounces;
     view.frame.rootRef = bvh.rootRef;
     view.frame.lightCount = static_cast<uint>(scene.lights.size());
-    view.frame.primitiveCount = static_cast<uint>(bvh.primitives.size());
+    view.frame.integrator = scene.settings.integrator;
+    view.frame.jitter = scene.settings.jitter ? 1 : 0;
     return view;
 }
 

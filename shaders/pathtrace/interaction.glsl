@@ -8,6 +8,7 @@ struct SurfaceInteraction
     uint material;
     vec3 ns;          // unit shading normal, on the side of ng
     bool front;       // the ray came from the front, the outside of a closed surface
+    vec3 nsStored;    // the shading normal as the mesh has it, on whichever side
 };
 
 /// Unit normal of the triangle's front, computed at a scale at which nothing under- or overflows.
@@ -32,6 +33,7 @@ void completeInteraction(vec3 front, vec3 dir, vec3 sizes, INOUT(SurfaceInteract
     isect.front = !(dot3(front, dir) > 0.0f);
     isect.ng = isect.front ? front : -front;
     isect.ns = isect.ng;
+    isect.nsStored = front;
 
     // p is within gamma(7) of `sizes` on each axis, and adding an offset rounds once more: less than
     // 16 times 2^-24 in all. The largest axis counts for all, as the ray/triangle test mixes axes.
@@ -56,6 +58,7 @@ void triangleInteraction(Primitive triangle, Traversal hit, vec3 dir, INOUT(Surf
     float length2 = dot3(ns, ns);
     if (length2 > 1e-12f) {
         ns = ns * quotient(1.0f, root(length2));
+        isect.nsStored = ns;
         isect.ns = dot3(ns, isect.ng) < 0.0f ? -ns : ns;
     }
 }

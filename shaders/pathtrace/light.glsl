@@ -17,18 +17,14 @@ float spotFalloff(Light light, float cosine)
     return t * t * (3.0f - t * 2.0f);
 }
 
-/// Chooses one light; all are as likely.
-///   u  uniform in [0,1)
-LightSample sampleLight(vec3 p, float u)
+/// What a light gives to a point, with a density of 1.
+LightSample illuminate(Light light, vec3 p)
 {
-    float count = float(frame.lightCount);
-    uint chosen = uint(u * count);
-    Light light = loadLight(chosen < frame.lightCount ? chosen : frame.lightCount - 1u);
     LightSample ls;
     if (light.type == LIGHT_DIRECTIONAL) {
         ls.distance = RAY_INFINITY;
         ls.wi = -light.direction;
-        ls.Li = light.intensity * count;
+        ls.Li = light.intensity;
         return ls;
     }
     ls.distance = 0.0f;
@@ -40,6 +36,18 @@ LightSample sampleLight(vec3 p, float u)
     ls.distance = root(d2);
     ls.wi = toLight * quotient(1.0f, ls.distance);
     float share = light.type == LIGHT_SPOT ? spotFalloff(light, -dot3(ls.wi, light.direction)) : 1.0f;
-    ls.Li = light.intensity * (share * quotient(count, d2));
+    ls.Li = light.intensity * quotient(share, d2);
+    return ls;
+}
+
+/// Chooses one light; all are as likely.
+///   u  uniform in [0,1)
+LightSample sampleLight(vec3 p, float u)
+{
+    float count = float(frame.lightCount);
+    uint chosen = uint(u * count);
+    Light light = loadLight(chosen < frame.lightCount ? chosen : frame.lightCount - 1u);
+    LightSample ls = illuminate(light, p);
+    ls.Li = ls.Li * count;
     return ls;
 }

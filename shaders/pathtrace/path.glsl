@@ -17,7 +17,9 @@ PathState beginPath(uint x, uint y, uint sampleIndex)
     path.pixel = y * frame.width + x;
     path.sampleIndex = sampleIndex;
     vec4 u = random4(path.pixel, sampleIndex, DIMENSION_CAMERA);
-    Ray ray = cameraRay(float(x) + u.x, float(y) + u.y, u.z, u.w);
+    float dx = frame.jitter != 0u ? u.x : 0.5f;
+    float dy = frame.jitter != 0u ? u.y : 0.5f;
+    Ray ray = cameraRay(float(x) + dx, float(y) + dy, u.z, u.w);
     path.org = ray.org;
     path.dir = ray.dir;
     path.phase = PHASE_EXTEND;
@@ -81,6 +83,25 @@ void seeEnvironment(INOUT(PathState) path)
     path.phase = PHASE_ENDED;
 }
 
+/// Local shading of the report's first pictures: light that lambert reflects from every light, whether
+/// or not something stands between. A normal that faces away from the light gives black.
+void shadePhong(Traversal hit, INOUT(PathState) path)
+{
+    tally.bounces++;
+    SurfaceInteraction isect = interactionAt(hit, path.org, path.dir);
+    Material material = loadMaterial(isect.material);
+    path.L = path.L + material.emission;
+    path.phase = PHASE_ENDED;
+    uint i = 0u;
+    while (i < frame.lightCount) {
+        LightSample ls = illuminate(loadLight(i), isect.p);
+        float cosine = max2(0.0f, dot3(ls.wi, isect.nsStored));
+        path.L = path.L + material.baseColor * ls.Li * (cosine * INV_PI);
+        i++;
+    }
+    if (i != frame.lightCount) faults |= FAULT_LOOP_CUT;
+}
+
 /// What happens at a surface: its emission, a shadow ray, the next ray. Returns the lobe sampled.
 uint shadeSurface(Traversal hit, INOUT(PathState) path)
 {
@@ -111,6 +132,8 @@ void shadePath(Traversal hit, INOUT(PathState) path)
     uint lobe = LOBE_NONE;
     if (hit.slot == NO_HIT) {
         seeEnvironment(path);
+    } else if (frame.integrator == INTEGRATOR_PHONG) {
+        shadePhong(hit, path);
     } else {
         lobe = shadeSurface(hit, path);
     }

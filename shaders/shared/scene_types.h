@@ -150,6 +150,9 @@ struct Probe
 GPU_STRUCT_SIZE(Probe, 64);
 GPU_FIELD(Probe, firstTexel, 28);
 
+SHARED_CONST uint INTEGRATOR_PATH = 0u;
+SHARED_CONST uint INTEGRATOR_PHONG = 1u;  // local shading by the lights alone, without shadows
+
 // Everything that stays the same for a whole picture.
 struct Frame
 {
@@ -162,8 +165,8 @@ struct Frame
     uint maxBounces;     // scatterings after which a path ends; it may still see light then
     uint rootRef;        // reference to the root of the tree
     uint lightCount;
-    uint primitiveCount;
-    uint unused0;
+    uint integrator;     // one of INTEGRATOR_*
+    uint jitter;         // 1: samples spread over the pixel; 0: all go through its centre
 };
 GPU_STRUCT_SIZE(Frame, 256);
 GPU_FIELD(Frame, probe, 96);

@@ -131,7 +131,6 @@ reference::Kernel<Order> kernelFor(const Bvh& bvh)
     kernel.nodes = bvh.nodes;
     kernel.primitives = bvh.primitives;
     kernel.frame.rootRef = bvh.rootRef;
-    kernel.frame.primitiveCount = static_cast<uint>(bvh.primitives.size());
     return kernel;
 }
 

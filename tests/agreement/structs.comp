@@ -55,7 +55,7 @@ void main()
     put(f.probe);
     put(f.background);
     put(f.width); put(f.height); put(f.seed); put(f.maxBounces);
-    put(f.rootRef); put(f.lightCount); put(f.primitiveCount); put(f.unused0);
+    put(f.rootRef); put(f.lightCount); put(f.integrator); put(f.jitter);
     PixelBlock b = blocks[1];
     put(b.sum); put(b.sumY2); put(b.digest); put(b.samplesDone); put(b.status); put(b.badSamples);
     put(b.indirectRays); put(b.shadowRays); put(b.boxTests); put(b.primitiveTests);

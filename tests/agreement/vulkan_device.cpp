@@ -108,7 +108,6 @@ TEST_F(VulkanDeviceTest, emptyScene_isTheSkyEverywhere)
     empty.frame = torus_.scene.frame;
     empty.frame.rootRef = REF_NONE;
     empty.frame.lightCount = 0;
-    empty.frame.primitiveCount = 0;
     empty.probeTexels = {&sky, 1};
     auto device = openFirstDevice();
     device->setScene(empty);

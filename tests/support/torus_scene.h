@@ -35,7 +35,6 @@ public:
         frame.maxBounces = 5;
         frame.rootRef = bvh_.rootRef;
         frame.lightCount = 1;
-        frame.primitiveCount = static_cast<uint>(bvh_.primitives.size());
         scene.nodes = bvh_.nodes;
         scene.primitives = bvh_.primitives;
         scene.materials = {&material_, 1};
