@@ -1,5 +1,6 @@
 #include "scene/json_fields.h"
 
+#include "scene/numbers.h"
 #include "scene/scene_keys.h"
 
 #include <algorithm>
@@ -98,6 +99,11 @@ const std::vector<JsonNode>& readArray(const JsonDocument& document, const JsonN
     return node.items;
 }
 
+bool hasKey(const JsonNode& node, const std::string& key)
+{
+    return findKey(node, key) != nullptr;
+}
+
 JsonObject::JsonObject(const JsonDocument& document, const JsonNode& node, const std::string& what,
                        const std::string& keys)
     : document_(document), node_(node), what_(what)
@@ -164,6 +170,16 @@ std::string JsonObject::string(const std::string& key, const std::string& fallba
     if (!value) return fallback;
     requireKind(document_, *value, nameOf(key), JsonNode::Kind::string);
     return value->text;
+}
+
+glm::dvec3 JsonObject::direction(const std::string& key) const
+{
+    const glm::dvec3 v = readVec3(document_, at(key), nameOf(key), {});
+    const double length = std::sqrt(glm::dot(v, v));
+    if (!(length > SMALLEST_MAGNITUDE)) {
+        throw errorAt(document_, at(key), fmt::format("{} is zero", nameOf(key)));
+    }
+    return v / length;
 }
 
 std::string JsonObject::choice(const std::string& key,

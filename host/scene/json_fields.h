@@ -31,6 +31,9 @@ glm::dvec3 readVec3(const JsonDocument& document, const JsonNode& node, const st
 const std::vector<JsonNode>& readArray(const JsonDocument& document, const JsonNode& node,
                                        const std::string& what);
 
+/// Whether the node is an object with such a key.
+bool hasKey(const JsonNode& node, const std::string& key);
+
 /// An object of the scene file whose keys were checked on construction against keysOf(`keys`):
 /// unknown ones and missing ones throw. `what` names it in messages: "the camera". The document
 /// must outlive it.
@@ -49,6 +52,8 @@ public:
     bool boolean(const std::string& key, bool fallback) const;
     glm::dvec3 vector(const std::string& key, const glm::dvec3& fallback, Range range = {}) const;
     std::string string(const std::string& key, const std::string& fallback) const;
+    /// The vector of a required key, scaled to length 1; zero is refused.
+    glm::dvec3 direction(const std::string& key) const;
     /// One of `choices`; the first when absent.
     std::string choice(const std::string& key, std::initializer_list<const char*> choices) const;
 

@@ -107,6 +107,13 @@ uint32_t addNormals(Scene& scene, const std::array<vec3, 3>& corners, const vec3
     return index;
 }
 
+void requireRoom(const Scene& scene, const std::string& name)
+{
+    if (scene.primitives.size() >= MAX_PRIMITIVES) {
+        throw badInput("{}: the scene has more than {} primitives", name, MAX_PRIMITIVES);
+    }
+}
+
 }  // namespace
 
 void makeSmoothNormals(Mesh& mesh)
@@ -135,6 +142,7 @@ uint64_t appendMesh(Scene& scene, const Mesh& mesh, const Transform& transform,
     std::vector<vec3> normals = mapNormals(mesh, transform);
     bool mirrors = determinant(transform) < 0;
     uint64_t dropped = 0;
+    scene.objectStarts.push_back(static_cast<uint32_t>(scene.primitives.size()));
     scene.primitives.reserve(scene.primitives.size() + mesh.triangles.size());
     for (const MeshTriangle& t : mesh.triangles) {
         std::array<size_t, 3> order = {0, mirrors ? size_t{2} : size_t{1},
@@ -149,9 +157,7 @@ uint64_t appendMesh(Scene& scene, const Mesh& mesh, const Transform& transform,
             dropped++;
             continue;
         }
-        if (scene.primitives.size() >= MAX_PRIMITIVES) {
-            throw badInput("{}: the scene has more than {} triangles", name, MAX_PRIMITIVES);
-        }
+        requireRoom(scene, name);
         vec3 geometric = unitOrZero(doubleAreaVector(p[0], p[1], p[2]));
         auto primitive = static_cast<uint32_t>(scene.primitives.size());
         uint32_t material = materials[t.material];
@@ -169,6 +175,30 @@ void appendShape(Scene& scene, const Mesh& mesh, const Transform& transform, uin
     if (dropped > 0) warn(fmt::format("{}: left out {} triangles of zero area", name, dropped));
 }
 
+void appendSphere(Scene& scene, const glm::dvec3& center, double radius, uint32_t material,
+                  const std::string& name)
+{
+    const double reach =
+        std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)}) + radius;
+    if (!(reach <= 0.999 * std::numeric_limits<float>::max())) {
+        throw badInput("{}: the sphere reaches outside the range of numbers", name);
+    }
+    if (!(radius >= SMALLEST_MAGNITUDE)) {
+        throw badInput("{}: the sphere's radius is {}; it must be positive", name, radius);
+    }
+    requireRoom(scene, name);
+    const auto primitive = static_cast<uint32_t>(scene.primitives.size());
+    const vec3 size(toFloat(radius), 0, 0);
+    scene.primitives.push_back({toFloat(center), primitive, size, material, vec3(0), SHAPE_SPHERE});
+}
+
+uint32_t addMaterial(Scene& scene, const std::string& name, const Material& material)
+{
+    scene.materials.push_back(material);
+    scene.materialNames.push_back(name);
+    return static_cast<uint32_t>(scene.materials.size() - 1);
+}
+
 uint32_t addMaterial(Scene& scene, const std::string& name, const vec3& baseColor,
                      const vec3& emission)
 {
@@ -177,9 +207,7 @@ uint32_t addMaterial(Scene& scene, const std::string& name, const vec3& baseColo
     material.eta = 1;
     material.emission = emission;
     material.type = MATERIAL_LAMBERT;
-    scene.materials.push_back(material);
-    scene.materialNames.push_back(name);
-    return static_cast<uint32_t>(scene.materials.size() - 1);
+    return addMaterial(scene, name, material);
 }
 
 }  // namespace sahl

@@ -40,6 +40,14 @@ uint64_t appendMesh(Scene& scene, const Mesh& mesh, const Transform& transform,
 void appendShape(Scene& scene, const Mesh& mesh, const Transform& transform, uint32_t material,
                  const std::string& name);
 
+/// Appends an exact sphere. Throws badInput naming `name` when the radius is not positive as a
+/// float, its box overflows or MAX_PRIMITIVES is exceeded.
+void appendSphere(Scene& scene, const glm::dvec3& center, double radius, uint32_t material,
+                  const std::string& name);
+
+/// Adds a material and returns its index.
+uint32_t addMaterial(Scene& scene, const std::string& name, const Material& material);
+
 /// Adds a lambert material and returns its index.
 uint32_t addMaterial(Scene& scene, const std::string& name, const vec3& baseColor,
                      const vec3& emission = vec3(0.0f));

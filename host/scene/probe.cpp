@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sahl {
 
@@ -47,12 +48,9 @@ void fillOutside(std::vector<vec4>& texels, uint32_t size)
     }
 }
 
-}  // namespace
-
-void setProbe(Scene& scene, const Image& picture, uint mapping, uint filter,
-              const std::string& name)
+void checkShape(const Image& picture, uint mapping, const std::string& name)
 {
-    bool isSquare = picture.width == picture.height;
+    const bool isSquare = picture.width == picture.height;
     if (mapping == PROBE_ANGULAR && !isSquare) {
         throw badInput(
             "{}: an angular map must be square, this is {} x {}; try the mapping latlong", name,
@@ -63,22 +61,55 @@ void setProbe(Scene& scene, const Image& picture, uint mapping, uint filter,
                          "map, set the mapping to angular",
                          name, picture.width, picture.height));
     }
+}
+
+std::vector<vec4> texelsOf(const Image& picture, double scale, const std::string& name)
+{
     uint64_t replaced = 0;
     std::vector<vec4> texels(size_t{picture.width} * picture.height, vec4(0.0f));
     for (size_t i = 0; i < texels.size(); i++) {
         for (size_t k = 0; k < 3; k++) {
-            float value = picture.rgb[3 * i + k];
-            bool usable = std::isfinite(value) && value >= 0;
+            const float value = picture.rgb[3 * i + k];
+            const bool usable = std::isfinite(value) && value >= 0;
             if (!usable) replaced++;
-            texels[i][static_cast<int>(k)] = usable ? toFloat(value) : 0.0f;
+            const double scaled = usable ? value * scale : 0;
+            if (scaled > std::numeric_limits<float>::max()) {
+                throw badInput("{}: scaled by {}, the value {} leaves the range of numbers", name,
+                               scale, value);
+            }
+            texels[i][static_cast<int>(k)] = toFloat(scaled);
         }
     }
     if (replaced > 0) {
         warn(fmt::format("{}: {} values that are negative or not finite became 0", name, replaced));
     }
-    if (mapping == PROBE_ANGULAR) fillOutside(texels, picture.width);
-    scene.probe = plainProbe(picture.width, picture.height, mapping, filter);
-    scene.probeTexels = std::move(texels);
+    return texels;
+}
+
+}  // namespace
+
+Probe appendProbe(std::vector<vec4>& texels, const Image& picture, const ProbeLook& look,
+                  const std::string& name)
+{
+    checkShape(picture, look.mapping, name);
+    std::vector<vec4> own = texelsOf(picture, look.scale, name);
+    if (look.mapping == PROBE_ANGULAR) fillOutside(own, picture.width);
+    Probe probe = plainProbe(picture.width, picture.height, look.mapping, look.filter);
+    probe.firstTexel = static_cast<uint>(texels.size());
+    // The way back from the world: rows of the inverse, which are the columns of the rotation
+    probe.axisX = toFloat(look.rotation[0]);
+    probe.axisY = toFloat(look.rotation[1]);
+    probe.axisZ = toFloat(look.rotation[2]);
+    texels.insert(texels.end(), own.begin(), own.end());
+    return probe;
+}
+
+void setProbe(Scene& scene, const Image& picture, uint mapping, uint filter,
+              const std::string& name)
+{
+    scene.probeTexels.clear();
+    scene.background.reset();
+    scene.probe = appendProbe(scene.probeTexels, picture, {mapping, filter}, name);
 }
 
 uint probeMapping(const std::string& word)

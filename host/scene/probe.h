@@ -6,12 +6,25 @@
 
 namespace sahl {
 
-/// Makes `picture` the scene's environment. Magnitudes below 1e-30 become 0; so do values that are
-/// negative or not finite, with one warning that counts them. In an angular map, texels whose
-/// centre lies outside the unit disc stand for no direction; each takes the value of the nearest
-/// texel towards the centre that lies inside, so that bilinear filtering at the rim reads sensible
-/// neighbours. A square picture taken as lat-long gets a warning.
-/// Throws badInput naming `name` when an angular map is not square.
+/// How a picture becomes a probe.
+struct ProbeLook {
+    uint mapping = PROBE_LATLONG;           ///< PROBE_*
+    uint filter = FILTER_BILINEAR;          ///< FILTER_*
+    double scale = 1;                       ///< times every value, >= 0
+    glm::dmat3 rotation = glm::dmat3(1.0);  ///< from the picture's directions to the world's
+};
+
+/// Appends the texels of `picture` to `texels` and returns the probe that looks them up. Magnitudes
+/// below 1e-30 become 0; so do values that are negative or not finite, with one warning that counts
+/// them. In an angular map, texels whose centre lies outside the unit disc stand for no direction;
+/// each takes the value of the nearest texel towards the centre that lies inside, so that bilinear
+/// filtering at the rim reads sensible neighbours. A square picture taken as lat-long gets a
+/// warning. Throws badInput naming `name` when an angular map is not square or a scaled value
+/// overflows.
+Probe appendProbe(std::vector<vec4>& texels, const Image& picture, const ProbeLook& look,
+                  const std::string& name);
+
+/// Makes `picture` the scene's environment, neither scaled nor turned, in place of all its probes.
 void setProbe(Scene& scene, const Image& picture, uint mapping, uint filter,
               const std::string& name);
 

@@ -1,5 +1,6 @@
 #include "scene/scene.h"
 
+#include "bvh/box.h"
 #include "scene/camera.h"
 #include "scene/primitives.h"
 #include "scene/probe.h"
@@ -39,7 +40,7 @@ Scene loadObjScene(const fs::path& path, const SceneOptions& options)
         applyProbeOption(scene, options);
     else
         useStudioProbe(scene, options);
-    scene.camera = makeCamera(frameTriangles(scene), scene.settings.width, scene.settings.height);
+    scene.camera = makeCamera(framePrimitives(scene), scene.settings.width, scene.settings.height);
     return scene;
 }
 
@@ -47,8 +48,9 @@ Scene loadObjScene(const fs::path& path, const SceneOptions& options)
 void warnAboutOddScene(const Scene& scene)
 {
     float largest = 0;
-    for (const Primitive& t : scene.primitives) {
-        for (const vec3& p : {t.p0, t.p1, t.p2}) {
+    for (const Primitive& primitive : scene.primitives) {
+        const Box box = boxOf(primitive);
+        for (const vec3& p : {box.lo, box.hi}) {
             largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         }
     }

@@ -26,19 +26,22 @@ inline Probe plainProbe(uint32_t width, uint32_t height, uint mapping, uint filt
 
 /// Numbers of the picture that a scene file may set and the command line may override.
 struct RenderSettings {
-    uint32_t width = 512;    ///< [pixels]
+    uint32_t width = 512;  ///< [pixels]
     uint32_t height = 512;
-    uint32_t spp = 64;       ///< samples per pixel
+    uint32_t spp = 64;  ///< samples per pixel
     uint32_t maxBounces = 8;
     uint32_t seed = 0;
+    uint32_t integrator = INTEGRATOR_PATH;
+    bool jitter = true;  ///< samples spread over the pixel rather than all through its centre
 };
 
-/// Everything a picture is made of, before the tree is built. Triangles are in the order in which
-/// the files gave them; triangles[i].number == i.
+/// Everything a picture is made of, before the tree is built. Primitives are in the order in which
+/// the files gave them; primitives[i].number == i.
 struct Scene {
     std::string name;  ///< for messages: the file, or "built-in ..."
     RenderSettings settings;
     std::vector<Primitive> primitives;
+    std::vector<uint32_t> objectStarts;  ///< number of the first primitive of each shape
     std::vector<TriangleNormals> triangleNormals;
     std::vector<Material> materials;
     std::vector<std::string> materialNames;  ///< of materials, for messages
@@ -50,27 +53,40 @@ struct Scene {
     uint64_t droppedTriangles = 0;  ///< of zero area, left out while reading
 };
 
+/// What points right and up in the picture, of any length, at a right angle to each other. The
+/// camera looks along up x right, or along right x up in a left-handed space.
+struct CameraAxes {
+    glm::dvec3 right = {1, 0, 0};
+    glm::dvec3 up = {0, 1, 0};
+    bool leftHanded = false;
+};
+
 /// Camera as people describe it. Field of view in degrees of the named axis.
 struct CameraDescription {
     glm::dvec3 eye = {0, 0, 5};
     glm::dvec3 lookAt = {0, 0, 0};
     glm::dvec3 up = {0, 1, 0};
+    std::optional<CameraAxes> axes;  ///< instead of lookAt and up
     double fovDeg = 40;
     bool fovHorizontal = false;
+    std::optional<double> orthographicHeight;  ///< of what is seen [m], instead of a field of view
+    double lensRadius = 0;                     ///< of a thin lens [m]; 0: all is sharp
+    std::optional<double> focusDistance;       ///< along the view [m]; without it: to lookAt
 };
 
 /// The device's camera for a picture of the given size. Throws badInput when eye and lookAt
-/// coincide, up is parallel to the view, or fovDeg is outside (0, 180).
+/// coincide, up is parallel to the view, fovDeg is outside (0, 180), axes are zero or not at a
+/// right angle (to 1e-4), or a lens has nothing to focus on.
 Camera makeCamera(const CameraDescription& description, uint32_t width, uint32_t height);
 
 /// What the command line adds to or changes in a scene.
 struct SceneOptions {
     std::optional<uint32_t> width, height, spp, maxBounces, seed;
-    std::optional<fs::path> probe;               ///< replaces the environment
-    std::optional<std::string> probeMapping;     ///< "latlong" or "angular"
-    std::optional<std::string> probeFilter;      ///< "nearest" or "bilinear"
-    bool smoothNormals = false;                  ///< make normals for meshes that have none
-    std::vector<fs::path> allowedPaths;          ///< folders outside the scene's own to read from
+    std::optional<fs::path> probe;            ///< replaces the environment
+    std::optional<std::string> probeMapping;  ///< "latlong" or "angular"
+    std::optional<std::string> probeFilter;   ///< "nearest" or "bilinear"
+    bool smoothNormals = false;               ///< make normals for meshes that have none
+    std::vector<fs::path> allowedPaths;       ///< folders outside the scene's own to read from
 };
 
 /// Reads a scene: .json (scenes/schema.json) or .obj (framing camera, default studio probe when no

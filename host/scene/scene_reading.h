@@ -1,9 +1,11 @@
 // What the readers of a scene file share while they fill a Scene.
 #pragma once
 
+#include "bvh/box.h"
 #include "scene/json_fields.h"
 #include "scene/obj_reader.h"
 #include "scene/scene.h"
+#include "scene/transform.h"
 
 #include <map>
 #include <memory>
@@ -19,10 +21,29 @@ struct SceneReading {
     Scene& scene;
     std::map<std::string, uint32_t> materials;                    ///< of the scene file, by name
     std::map<fs::path, std::shared_ptr<const ObjFile>> objFiles;  ///< each file is read once
+    std::map<std::string, Box> namedShapes;
 };
+
+/// Adds the entries of "materials" to the scene.
+void readMaterials(SceneReading& reading, const JsonNode& node);
 
 /// Adds one entry of "shapes" to the scene.
 void readShape(SceneReading& reading, const JsonNode& node);
+
+/// Adds one entry of "lights" to the scene.
+void readLight(SceneReading& reading, const JsonNode& node);
+
+/// Makes "environment" the scene's probe, and "background" what the camera sees behind the scene.
+/// The environment comes first; the command line's options count for it alone.
+void readEnvironment(SceneReading& reading, const JsonNode& node);
+void readBackground(SceneReading& reading, const JsonNode& node);
+
+/// "camera", once all shapes are read: it may focus on one of them.
+Camera readCamera(SceneReading& reading, const JsonNode& node);
+
+/// An object of axis and angle.
+///   what  names it in messages: "\"rotateDeg\" of the environment"
+Transform readRotation(const JsonDocument& document, const JsonNode& node, const std::string& what);
 
 /// Adds an OBJ file with its own materials.
 ///   smooth  make normals where the file has none
@@ -42,6 +63,8 @@ constexpr uint32_t MAX_PICTURE_SIDE = 32768;
 constexpr uint64_t MAX_PICTURE_PIXELS = uint64_t{1} << 28;
 constexpr uint32_t MAX_SAMPLES = 1u << 24;
 constexpr uint32_t MAX_BOUNCES = 65535;
+constexpr Range ANGLE_RANGE = {-1e6, 1e6};  ///< of rotations [degrees]
+constexpr Range LIGHT_RANGE = {0, 1e18};    ///< of radiance, intensity and irradiance
 
 /// Reads a scene file of the format in scenes/schema.json.
 Scene loadJsonScene(const fs::path& path, const SceneOptions& options);

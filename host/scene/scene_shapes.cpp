@@ -1,4 +1,5 @@
-// The shapes of scene files: meshes from files, triangles written out, and procedural ones.
+// The shapes of scene files: meshes from files, triangles written out, procedural ones, and
+// spheres.
 #include "scene/numbers.h"
 #include "scene/primitives.h"
 #include "scene/scene_reading.h"
@@ -8,6 +9,8 @@
 namespace sahl {
 
 namespace {
+
+constexpr Range RADIUS = {1e-9, 1e18};  // [m]
 
 bool isZero(const glm::dvec3& v)
 {
@@ -47,15 +50,6 @@ Transform readScale(const JsonObject& object, const JsonNode& node)
     return scaling(readVec3(object.document(), node, what, {}));
 }
 
-Transform readRotation(const JsonObject& object, const JsonNode& node)
-{
-    JsonObject rotationObject(object.document(), node, "\"rotateDeg\" of " + object.what(),
-                              "rotation");
-    glm::dvec3 axis = rotationObject.vector("axis", {});
-    if (isZero(axis)) throw errorAt(object.document(), node, "the axis of a rotation is zero");
-    return rotation(axis, rotationObject.number("angle", 0, {-1e6, 1e6}));
-}
-
 /// p' = translate * rotate * scale * matrix * p
 Transform readTransform(const JsonObject& shape)
 {
@@ -68,7 +62,9 @@ Transform readTransform(const JsonObject& shape)
         transform = compose(readScale(object, *scale), transform);
     }
     if (const JsonNode* rotate = object.find("rotateDeg")) {
-        transform = compose(readRotation(object, *rotate), transform);
+        transform =
+            compose(readRotation(object.document(), *rotate, "\"rotateDeg\" of " + object.what()),
+                    transform);
     }
     transform = compose(translation(object.vector("translate", {})), transform);
     double volume = determinant(transform);
@@ -145,9 +141,9 @@ Mesh readTriangles(const JsonObject& shape)
     return mesh;
 }
 
-Mesh readSphere(const JsonObject& shape)
+Mesh readSphereMesh(const JsonObject& shape)
 {
-    return makeSphere(shape.vector("center", {}), shape.number("radius", 1, {1e-9, 1e18}),
+    return makeSphere(shape.vector("center", {}), shape.number("radius", 1, RADIUS),
                       shape.uint("level", 5, 0, MAX_SPHERE_LEVEL), shape.boolean("smooth", true));
 }
 
@@ -156,7 +152,7 @@ Mesh readDisk(const JsonObject& shape)
     glm::dvec3 normal = shape.vector("normal", {0, 1, 0});
     if (isZero(normal))
         throw errorAt(shape.document(), shape.at("normal"), "the normal of a disk is zero");
-    return makeDisk(shape.vector("center", {}), normal, shape.number("radius", 1, {1e-9, 1e18}),
+    return makeDisk(shape.vector("center", {}), normal, shape.number("radius", 1, RADIUS),
                     shape.uint("segments", 64, 3, MAX_DISK_SEGMENTS));
 }
 
@@ -180,34 +176,97 @@ void readMeshFile(SceneReading& reading, const JsonObject& shape)
                 path.string());
 }
 
+/// Factor of a transform that scales alike in all directions, turns, mirrors and moves; 0 for
+/// others.
+double uniformScale(const Transform& transform)
+{
+    const glm::dmat3& m = transform.linear;
+    const double square = (glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2])) / 3;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            const double expected = i == k ? square : 0;
+            if (!(std::abs(glm::dot(m[i], m[k]) - expected) <= 1e-6 * square)) return 0;
+        }
+    }
+    return std::sqrt(square);
+}
+
+void readSphere(SceneReading& reading, const JsonObject& shape, const std::string& name)
+{
+    const Transform transform = readTransform(shape);
+    const double scale = uniformScale(transform);
+    if (scale == 0) {
+        throw errorAt(shape.document(), shape.at("transform"),
+                      "a sphere stays a sphere only when scaled alike in all directions; use "
+                      "\"sphereMesh\" for other shapes");
+    }
+    const glm::dvec3 center = mapPoint(transform, shape.vector("center", {}));
+    appendSphere(reading.scene, center, scale * shape.number("radius", 1, RADIUS),
+                 readMaterialName(reading, shape), name);
+}
+
+Mesh readMesh(SceneReading& reading, const JsonObject& shape, const std::string& type)
+{
+    if (type == "sphereMesh") return readSphereMesh(shape);
+    if (type == "disk") return readDisk(shape);
+    if (type == "rectangle") {
+        return makeRectangle(shape.vector("corner", {}), shape.vector("edgeU", {}),
+                             shape.vector("edgeV", {}));
+    }
+    if (type == "teapot") {
+        return makeTeapot(shape.uint("subdivisions", 16, 2, MAX_TEAPOT_SUBDIVISIONS),
+                          shape.boolean("smooth", true));
+    }
+    Mesh mesh = readTriangles(shape);
+    if (shape.boolean("smoothNormals", false) || reading.options.smoothNormals)
+        makeSmoothNormals(mesh);
+    return mesh;
+}
+
+/// Remembers where the primitives from `first` on are, for a camera that focuses on them.
+void nameShape(SceneReading& reading, const JsonObject& shape, size_t first)
+{
+    if (!shape.has("name")) return;
+    const std::string name = shape.string("name", "");
+    Box box;
+    for (size_t i = first; i < reading.scene.primitives.size(); i++)
+        grow(box, boxOf(reading.scene.primitives[i]));
+    if (name.empty())
+        throw errorAt(shape.document(), shape.at("name"), "the name of a shape is empty");
+    if (!reading.namedShapes.emplace(name, box).second) {
+        throw errorAt(shape.document(), shape.at("name"),
+                      fmt::format("two shapes have the name \"{}\"", name));
+    }
+}
+
 }  // namespace
+
+Transform readRotation(const JsonDocument& document, const JsonNode& node, const std::string& what)
+{
+    const JsonObject object(document, node, what, "rotation");
+    const glm::dvec3 axis = object.vector("axis", {});
+    if (isZero(axis)) throw errorAt(document, node, "the axis of a rotation is zero");
+    return rotation(axis, object.number("angle", 0, ANGLE_RANGE));
+}
 
 void readShape(SceneReading& reading, const JsonNode& node)
 {
     const JsonDocument& document = reading.document;
-    std::string type = readType(document, node, "a shape",
-                                {"mesh", "triangles", "teapot", "sphereMesh", "rectangle", "disk"});
-    JsonObject shape(document, node, fmt::format("the shape \"{}\"", type), type);
-    if (type == "mesh") return readMeshFile(reading, shape);
-
-    Mesh mesh;
-    if (type == "triangles") {
-        mesh = readTriangles(shape);
-        bool smooth = shape.boolean("smoothNormals", false) || reading.options.smoothNormals;
-        if (smooth) makeSmoothNormals(mesh);
-    } else if (type == "teapot") {
-        mesh = makeTeapot(shape.uint("subdivisions", 16, 2, MAX_TEAPOT_SUBDIVISIONS),
-                          shape.boolean("smooth", true));
-    } else if (type == "sphereMesh") {
-        mesh = readSphere(shape);
-    } else if (type == "rectangle") {
-        mesh = makeRectangle(shape.vector("corner", {}), shape.vector("edgeU", {}),
-                             shape.vector("edgeV", {}));
+    const std::string type =
+        readType(document, node, "a shape",
+                 {"mesh", "triangles", "teapot", "sphere", "sphereMesh", "rectangle", "disk"});
+    const JsonObject shape(document, node, fmt::format("the shape \"{}\"", type), type);
+    const std::string name = fmt::format("{}: {}", document.where(node.offset), shape.what());
+    const size_t first = reading.scene.primitives.size();
+    if (type == "mesh") {
+        readMeshFile(reading, shape);
+    } else if (type == "sphere") {
+        readSphere(reading, shape, name);
     } else {
-        mesh = readDisk(shape);
+        appendShape(reading.scene, readMesh(reading, shape, type), readTransform(shape),
+                    readMaterialName(reading, shape), name);
     }
-    appendShape(reading.scene, mesh, readTransform(shape), readMaterialName(reading, shape),
-                fmt::format("{}: {}", document.where(node.offset), shape.what()));
+    nameShape(reading, shape, first);
 }
 
 void appendObj(Scene& scene, const ObjFile& obj, const Transform& transform, bool smooth,

@@ -116,7 +116,7 @@ TEST(CameraTest, framedTrianglesLieInsideThePicture)
         scene.settings.height = height;
         appendMesh(scene, makeTeapot(4, false), translation({100, -20, 3}),
                    std::vector<uint32_t>{0}, "teapot");
-        const Camera camera = makeCamera(frameTriangles(scene), width, height);
+        const Camera camera = makeCamera(framePrimitives(scene), width, height);
         double largest = 0;
         for (const Primitive& t : scene.primitives) {
             const vec3 p = t.p0 - camera.position;
