@@ -53,7 +53,7 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
         ->type_name("X")
         ->group("Output");
     addFlag(command, "--aovs", output.firstHits,
-            "albedo, normals, depth, position and ids as layers of\nevery .exr (scenes/README.md)")
+            "albedo, normals, depth, position and ids as layers of\nevery .exr (docs/exr.md)")
         ->group("Output");
     command
         .add_option("--stats", options.statsPath,
@@ -104,7 +104,7 @@ ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_
     DeviceInfo info = device.info();
     return {{"sahl.version", SAHL_VERSION},
             {"sahl.scene", fs::path(scene.name).filename().string()},
-            {"sahl.integrator", "path"},
+            {"sahl.integrator", scene.settings.integrator == INTEGRATOR_PHONG ? "phong" : "path"},
             {"sahl.sampler", "independent"},
             {"sahl.varianceOver", "samples"},
             {"sahl.seed", std::to_string(scene.settings.seed)},

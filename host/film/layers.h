@@ -1,5 +1,5 @@
 // The pictures that go along with the light: what camera rays met, sample counts, variance.
-// Layer names are those of CONTRIBUTING.md's "EXR layers": albedo, normal, depth and so on.
+// docs/exr.md describes the layers for users.
 #pragma once
 
 #include "film/film.h"
