@@ -11,10 +11,12 @@ vec3 reflected(vec3 dir, vec3 n) { return unit(dir - n * (2.0f * dot3(dir, n)));
 float fresnelDielectric(float cosI, float eta, OUT(float) cosT)
 {
     cosT = 0.0f;
-    float sinI2 = max2(0.0f, 1.0f - cosI * cosI);
-    float eta2 = eta * eta;
-    if (!(sinI2 < eta2)) return 1.0f;
-    cosT = root(max2(0.0f, 1.0f - quotient(sinI2, eta2)));
+    if (!(eta < 1e15f)) return 1.0f;  // its square would overflow
+
+    // (eta cosT)^2 = eta^2 - sinI^2, without its cancellation where eta is about 1 and cosI small
+    float etaCosT2 = flushed((eta - 1.0f) * (eta + 1.0f) + cosI * cosI);
+    if (!(etaCosT2 > 0.0f)) return 1.0f;
+    cosT = min2(1.0f, quotient(root(etaCosT2), eta));
     float parallelSum = eta * cosI + cosT;
     float perpendicularSum = cosI + eta * cosT;
     if (!(parallelSum > 0.0f) || !(perpendicularSum > 0.0f)) return 1.0f;
