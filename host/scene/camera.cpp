@@ -12,11 +12,6 @@ namespace sahl {
 
 namespace {
 
-bool isFinite(const glm::dvec3& v)
-{
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 double length(const glm::dvec3& v)
 {
     return std::sqrt(glm::dot(v, v));

@@ -24,35 +24,19 @@ struct MtlCheck {
     std::set<std::string> unused;       ///< keywords that Sahl makes nothing of
 };
 
-void checkColor(const Statement& s, const std::string& file)
-{
-    std::string_view rest = s.rest;
-    size_t n = 0;
-    for (auto word = takeWord(rest); !word.empty() && word[0] != '#'; word = takeWord(rest), n++) {
-        double value = 0;
-        if (parseNumber(word, value) != NumberText::fine) {
-            throw badInput("{}:{}: \"{}\" is not a finite number; {} needs 3 of them", file, s.line,
-                           word.substr(0, 40), s.keyword);
-        }
-    }
-    if (n != 3) throw badInput("{}:{}: {} needs 3 numbers, found {}", file, s.line, s.keyword, n);
-}
-
 MtlCheck checkMtl(std::string_view text, const std::string& file)
 {
     static const std::set<std::string_view> harmless = {"Ka", "illum", "newmtl"};
     MtlCheck check;
-    StatementReader statements(text);
+    StatementReader statements(text, file);
     Statement s;
     std::string material;
     while (statements.next(s)) {
         if (s.keyword == "newmtl") {
             material = std::string(s.rest);
-        } else if (s.keyword == "Kd") {
-            checkColor(s, file);
-            check.withDiffuse.insert(material);
-        } else if (s.keyword == "Ke") {
-            checkColor(s, file);
+        } else if (s.keyword == "Kd" || s.keyword == "Ke") {
+            checkNumbers(s, 3, 3);
+            if (s.keyword == "Kd") check.withDiffuse.insert(material);
         } else if (harmless.count(s.keyword) == 0) {
             check.unused.insert(std::string(s.keyword.substr(0, 20)));
         }
@@ -105,6 +89,10 @@ void readMtl(const fs::path& file, std::map<std::string, ObjMaterial>& materials
             material.baseColor = clampColor(m.diffuse, 1, clamped);
         }
         material.emission = clampColor(m.emission, MAX_EMISSION, clamped);
+        if (!isFinite(material.baseColor) || !isFinite(material.emission)) {
+            throw badInput("{}: tinyobjloader misreads a colour of \"{}\"; write it more simply",
+                           file.string(), name);
+        }
         materials.emplace(name, material);
     }
     tellUnused(check.unused, file.string());

@@ -18,8 +18,9 @@ bool isTooSmall(std::string_view text)
     return text.substr(0, text.find('.')).find_first_of("123456789") == std::string_view::npos;
 }
 
-template <class Real>
-NumberText parse(std::string_view text, Real& value)
+}  // namespace
+
+NumberText parseNumber(std::string_view text, double& value)
 {
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
     const char* end = text.data() + text.size();
@@ -33,17 +34,6 @@ NumberText parse(std::string_view text, Real& value)
     return NumberText::fine;
 }
 
-}  // namespace
-
-NumberText parseNumber(std::string_view text, double& value)
-{
-    return parse(text, value);
-}
-NumberText parseNumber(std::string_view text, float& value)
-{
-    return parse(text, value);
-}
-
 float toFloat(double value)
 {
     return std::abs(value) < SMALLEST_MAGNITUDE ? 0.0f : static_cast<float>(value);
@@ -52,6 +42,11 @@ float toFloat(double value)
 vec3 toFloat(const glm::dvec3& value)
 {
     return vec3(toFloat(value.x), toFloat(value.y), toFloat(value.z));
+}
+
+bool isFinite(const glm::dvec3& v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 }  // namespace sahl

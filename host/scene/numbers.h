@@ -18,12 +18,13 @@ enum class NumberText {
 };
 
 /// Reads all of `text` as a decimal number ("-1.5e3", a leading '+' is allowed) whatever the
-/// locale. What lies below the range of the type becomes 0.
+/// locale. What lies below the range of a double becomes 0.
 NumberText parseNumber(std::string_view text, double& value);
-NumberText parseNumber(std::string_view text, float& value);  ///< correctly rounded to float
 
 /// Nearest float; magnitudes below SMALLEST_MAGNITUDE become +0.
 float toFloat(double value);
 vec3 toFloat(const glm::dvec3& value);
+
+bool isFinite(const glm::dvec3& v);
 
 }  // namespace sahl

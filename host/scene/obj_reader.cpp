@@ -1,6 +1,6 @@
-// Geometry is read here rather than by tinyobjloader, because its numbers go through pow() (bits
-// would depend on the C library), its indices through atoi() without a range check, and its errors
-// know no lines. Materials, where none of this matters, are read by it in mtl_reader.cpp.
+// tinyobjloader reads the geometry, but it takes 0 for whatever is not a number, hands indices on
+// unchecked and knows no lines. So it is given one statement at a time, after a strict check that
+// names the line, and every index that comes back is checked once more.
 #include "scene/obj_reader.h"
 
 #include "scene/numbers.h"
@@ -8,15 +8,22 @@
 #include "scene/statements.h"
 #include "util/error.h"
 
+#include <tiny_obj_loader.h>
+
+#include <algorithm>
 #include <charconv>
+#include <istream>
 #include <set>
+#include <span>
+#include <streambuf>
+#include <utility>
 
 namespace sahl {
 
 namespace {
 
+/// Holds fewer than 2^29 vertices, so that every index in range is an int of tinyobjloader's.
 constexpr uint64_t MAX_OBJ_BYTES = uint64_t{4} << 30;
-constexpr size_t MAX_VERTICES = 0x7fffffff;
 
 /// Something left out, counted, and told in one line at the end.
 struct Omission {
@@ -32,141 +39,120 @@ struct Omission {
     }
 };
 
+/// What faces number: the file has `count` of them, `soFar` of them above the current statement.
+struct Elements {
+    const char* name;
+    size_t count = 0, soFar = 0;
+};
+
 struct ObjReading {
     std::string file;  ///< for messages
     PathPolicy policy;
     ObjFile result;
-    size_t texcoords = 0;
+    Elements positions = {"vertex"}, normals = {"normal"}, texcoords = {"texture coordinate"};
     std::map<std::string, ObjMaterial> library;     ///< of all MTL files so far
     std::map<std::string, uint32_t> usedMaterials;  ///< name -> index in result.materials
     uint32_t material = NO_HIT;                     ///< in force; NO_HIT: none named yet
-    // Counts of statements so far, which negative indices are relative to.
-    size_t positionsSoFar = 0, normalsSoFar = 0, texcoordsSoFar = 0;
+    Statement statement;                            ///< the current one
+    size_t corners = 0;                             ///< of the current face
     Omission shortFaces, linesAndPoints, unknown, fans, badNormals, vertexColors;
     std::vector<std::string> missingMaterials;
 };
 
-std::string at(const ObjReading& reading, const Statement& statement)
+Error misread(const ObjReading& reading, const char* what)
 {
-    return fmt::format("{}:{}", reading.file, statement.line);
-}
-
-/// Reads all numbers of a statement; `count` of them are expected at least, `most` at most.
-size_t readNumbers(const ObjReading& reading, const Statement& statement, size_t least, size_t most,
-                   std::array<float, 8>& values, bool allowNotFinite)
-{
-    std::string_view rest = statement.rest;
-    size_t n = 0;
-    for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) {
-        if (word[0] == '#') break;
-        if (n == most) {
-            throw badInput("{}: more than {} numbers behind \"{}\"", at(reading, statement), most,
-                           statement.keyword);
-        }
-        NumberText how = parseNumber(word, values[n]);
-        bool fine = how == NumberText::fine || (how == NumberText::notFinite && allowNotFinite);
-        if (!fine) {
-            throw badInput("{}: \"{}\" is not a {}number", at(reading, statement),
-                           word.substr(0, 40), how == NumberText::notFinite ? "finite " : "");
-        }
-        if (how == NumberText::notFinite) values[n] = 0;
-        n++;
-    }
-    if (n < least) {
-        throw badInput("{}: \"{}\" needs {} numbers, found {}", at(reading, statement),
-                       statement.keyword, least, n);
-    }
-    return n;
-}
-
-void readVertexStatement(ObjReading& reading, const Statement& s)
-{
-    std::array<float, 8> x = {};
-    Mesh& mesh = reading.result.mesh;
-    if (s.keyword == "v") {
-        size_t n = readNumbers(reading, s, 3, 7, x, false);
-        if (n >= 6) reading.vertexColors.add(s);
-        mesh.positions.push_back(toFloat(glm::dvec3(x[0], x[1], x[2])));
-    } else if (s.keyword == "vn") {
-        readNumbers(reading, s, 3, 3, x, true);
-        vec3 normal = toFloat(glm::dvec3(x[0], x[1], x[2]));
-        if (normal == vec3(0.0f)) reading.badNormals.add(s);
-        mesh.normals.push_back(normal);
-    } else if (s.keyword == "vt") {
-        readNumbers(reading, s, 1, 3, x, false);
-        reading.texcoords++;
-    }
-    if (mesh.positions.size() > MAX_VERTICES || mesh.normals.size() > MAX_VERTICES) {
-        throw badInput("{}: more than {} vertices", at(reading, s), MAX_VERTICES);
-    }
+    return badInput("{}: tinyobjloader misreads {}; please write it more simply",
+                    at(reading.statement), what);
 }
 
 /// First pass: everything that faces may refer to, also from before it.
-void readVertices(ObjReading& reading, std::string_view text)
+void checkVertex(ObjReading& reading, std::string& line)
 {
-    StatementReader statements(text);
-    Statement s;
-    while (statements.next(s)) {
-        if (s.keyword[0] == 'v') readVertexStatement(reading, s);
+    const Statement& s = reading.statement;
+    if (s.keyword == "v") {
+        if (checkNumbers(s, 3, 7) >= 6) reading.vertexColors.add(s);
+    } else if (s.keyword == "vn") {
+        checkNumbers(s, 3, 3, true);
+    } else if (s.keyword == "vt") {
+        checkNumbers(s, 1, 3);
+        reading.texcoords.count++;
     }
+    if (s.keyword == "v" || s.keyword == "vn") line.append(s.keyword).append(" ").append(s.rest);
+}
+
+void addPosition(void* user, float x, float y, float z, float)
+{
+    auto& reading = *static_cast<ObjReading*>(user);
+    // 0e999, for one: tinyobjloader computes 0 times infinity.
+    if (!isFinite({x, y, z})) throw misread(reading, "a number");
+    reading.result.mesh.positions.push_back(toFloat(glm::dvec3(x, y, z)));
+    reading.positions.count++;
+}
+
+void addNormal(void* user, float x, float y, float z)
+{
+    auto& reading = *static_cast<ObjReading*>(user);
+    vec3 normal = isFinite({x, y, z}) ? toFloat(glm::dvec3(x, y, z)) : vec3(0.0f);
+    if (normal == vec3(0.0f)) reading.badNormals.add(reading.statement);
+    reading.result.mesh.normals.push_back(normal);
+    reading.normals.count++;
 }
 
 /// Turns an index of the file (from 1, or negative from the end of what came before) into one
-/// from 0.
-uint32_t readIndex(const ObjReading& reading, const Statement& s, std::string_view text,
-                   size_t count, size_t soFar, const char* what)
+/// from 0; NO_HIT when it is out of range.
+uint32_t findElement(const Elements& elements, int64_t value)
 {
-    if (text.size() > 1 && text[0] == '+') text.remove_prefix(1);
-    int64_t value = 0;
-    auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    bool isNumber = error != std::errc::invalid_argument && stop == text.data() + text.size();
-    if (!isNumber) {
-        throw badInput("{}: \"{}\" is not a {} index", at(reading, s), text.substr(0, 40), what);
-    }
-    bool inRange = error == std::errc() && value != 0 && value <= static_cast<int64_t>(count) &&
-                   value >= -static_cast<int64_t>(soFar);
-    if (!inRange) {
-        throw badInput("{}: {} index {} is out of range; the file has {} (counted from 1{})",
-                       at(reading, s), what, text.substr(0, 40), count,
-                       text[0] == '-' ? fmt::format(", {} above this line", soFar) : "");
-    }
-    return static_cast<uint32_t>(value > 0 ? value - 1 : static_cast<int64_t>(soFar) + value);
+    int64_t index = value > 0 ? value - 1 : static_cast<int64_t>(elements.soFar) + value;
+    bool inRange = value != 0 && index >= 0 && index < static_cast<int64_t>(elements.count);
+    return inRange ? static_cast<uint32_t>(index) : NO_HIT;
 }
 
-struct FaceCorner {
-    uint32_t position = 0;
-    uint32_t normal = SHAPE_FLAT;
-};
+void checkIndex(const ObjReading& reading, std::string_view text, const Elements& elements)
+{
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    int64_t value = 0;
+    auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc::invalid_argument || stop != text.data() + text.size()) {
+        throw badInput("{}: \"{}\" is not a {} index", at(reading.statement), text.substr(0, 40),
+                       elements.name);
+    }
+    if (error != std::errc() || findElement(elements, value) == NO_HIT) {
+        throw badInput("{}: {} index {} is out of range; the file has {} (counted from 1{})",
+                       at(reading.statement), elements.name, text.substr(0, 40), elements.count,
+                       text[0] == '-' ? fmt::format(", {} above this line", elements.soFar) : "");
+    }
+}
 
 /// "7", "7/3", "7//2" or "7/3/2"
-FaceCorner readCorner(const ObjReading& reading, const Statement& s, std::string_view word)
+void checkCorner(const ObjReading& reading, std::string_view word)
 {
-    const Mesh& mesh = reading.result.mesh;
-    std::array<std::string_view, 3> parts;
-    size_t part = 0;
-    std::string_view rest = word;
-    for (;; part++) {
-        if (part == 3) {
-            throw badInput("{}: \"{}\" has more than 3 indices", at(reading, s),
-                           word.substr(0, 40));
+    if (std::count(word.begin(), word.end(), '/') > 2) {
+        throw badInput("{}: \"{}\" has more than 3 indices", at(reading.statement),
+                       word.substr(0, 40));
+    }
+    for (const Elements* kind : {&reading.positions, &reading.texcoords, &reading.normals}) {
+        size_t slash = std::min(word.find('/'), word.size());
+        if (slash > 0 || kind == &reading.positions) {
+            checkIndex(reading, word.substr(0, slash), *kind);
         }
-        size_t slash = rest.find('/');
-        parts[part] = rest.substr(0, slash);
-        if (slash == std::string_view::npos) break;
-        rest.remove_prefix(slash + 1);
+        word.remove_prefix(std::min(slash + 1, word.size()));
     }
-    FaceCorner corner;
-    corner.position =
-        readIndex(reading, s, parts[0], mesh.positions.size(), reading.positionsSoFar, "vertex");
-    if (!parts[1].empty()) {
-        readIndex(reading, s, parts[1], reading.texcoords, reading.texcoordsSoFar,
-                  "texture coordinate");
+}
+
+void checkFace(ObjReading& reading, std::string& line)
+{
+    std::string_view rest = reading.statement.rest;
+    line += 'f';
+    reading.corners = 0;
+    for (auto word = takeWord(rest); !word.empty() && word[0] != '#'; word = takeWord(rest)) {
+        checkCorner(reading, word);
+        // Behind a slash at the end, tinyobjloader would take the next corner's index.
+        line.append(" ").append(word.substr(0, word.find_last_not_of('/') + 1));
+        reading.corners++;
     }
-    if (!parts[2].empty()) {
-        corner.normal =
-            readIndex(reading, s, parts[2], mesh.normals.size(), reading.normalsSoFar, "normal");
-    }
-    return corner;
+    if (reading.corners >= 3) return;
+    reading.shortFaces.add(reading.statement);
+    line.clear();
 }
 
 uint32_t useMaterial(ObjReading& reading, const ObjMaterial& material)
@@ -177,105 +163,137 @@ uint32_t useMaterial(ObjReading& reading, const ObjMaterial& material)
     return entry->second;
 }
 
-void readFace(ObjReading& reading, const Statement& s)
+void addFace(void* user, tinyobj::index_t* corners, int count)
 {
-    std::vector<FaceCorner> corners;
-    std::string_view rest = s.rest;
-    for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) {
-        if (word[0] == '#') break;
-        corners.push_back(readCorner(reading, s, word));
-    }
-    if (corners.size() < 3) {
-        reading.shortFaces.add(s);
-        return;
-    }
-    if (reading.material == NO_HIT) {
-        ObjMaterial standard;
-        standard.name = "default";
-        reading.material = useMaterial(reading, standard);
-    }
+    auto& reading = *static_cast<ObjReading*>(user);
     Mesh& mesh = reading.result.mesh;
+    auto find = [&](const Elements& elements, int value) {
+        uint32_t index = findElement(elements, value);
+        return index != NO_HIT ? index : throw misread(reading, "an index");
+    };
+    if (static_cast<size_t>(count) != reading.corners) throw misread(reading, "the face");
+    if (reading.material == NO_HIT) reading.material = useMaterial(reading, {"default"});
+    std::vector<uint32_t> positions, normals;
     std::vector<vec3> points;
-    points.reserve(corners.size());
-    for (const FaceCorner& corner : corners) points.push_back(mesh.positions[corner.position]);
+    for (const tinyobj::index_t& corner : std::span(corners, reading.corners)) {
+        positions.push_back(find(reading.positions, corner.vertex_index));
+        bool hasNormal = corner.normal_index != 0;
+        normals.push_back(hasNormal ? find(reading.normals, corner.normal_index) : SHAPE_FLAT);
+        points.push_back(mesh.positions[positions.back()]);
+    }
     bool isFan = false;
     for (const auto& cut : triangulate(points, isFan)) {
         MeshTriangle triangle;
         triangle.material = reading.material;
         for (size_t k = 0; k < 3; k++) {
-            triangle.position[k] = corners[cut[k]].position;
-            triangle.normal[k] = corners[cut[k]].normal;
+            triangle.position[k] = positions[cut[k]];
+            triangle.normal[k] = normals[cut[k]];
         }
         mesh.triangles.push_back(triangle);
     }
-    if (isFan) reading.fans.add(s);
+    if (isFan) reading.fans.add(reading.statement);
 }
 
-void readMaterialLibrary(ObjReading& reading, const Statement& s)
+void readMaterialLibrary(ObjReading& reading)
 {
-    // Names with blanks are common although the format separates several names by blanks.
-    std::vector<std::string> names = {std::string(s.rest)};
+    const Statement& s = reading.statement;
     fs::path folder = folderOf(reading.file);
     std::error_code error;
-    if (!fs::exists(resolvePath(reading.policy, folder, names[0], at(reading, s)), error)) {
-        std::string_view rest = s.rest;
-        names.clear();
-        for (auto word = takeWord(rest); !word.empty(); word = takeWord(rest)) {
-            names.emplace_back(word);
-        }
-    }
-    for (const std::string& name : names) {
-        fs::path path = resolvePath(reading.policy, folder, name, at(reading, s));
+    std::string_view rest = s.rest;
+    // Names with blanks are common although the format separates several names by blanks.
+    bool isOneName =
+        fs::exists(resolvePath(reading.policy, folder, std::string(rest), at(s)), error);
+    while (!rest.empty()) {
+        std::string name(isOneName ? std::exchange(rest, {}) : takeWord(rest));
+        fs::path path = resolvePath(reading.policy, folder, name, at(s));
         if (fs::exists(path, error)) {
             readMtl(path, reading.library);
         } else {
             warn(fmt::format("{}: material file \"{}\" is missing; its materials become grey",
-                             at(reading, s), name));
+                             at(s), name));
         }
     }
 }
 
-void readMaterialUse(ObjReading& reading, const Statement& s)
+void setMaterial(void* user, const char* name, int)
 {
-    std::string name(s.rest);
+    auto& reading = *static_cast<ObjReading*>(user);
     auto found = reading.library.find(name);
-    if (found != reading.library.end()) {
-        reading.material = useMaterial(reading, found->second);
-        return;
+    bool isKnown = found != reading.library.end();
+    if (!isKnown && reading.usedMaterials.count(name) == 0) {
+        reading.missingMaterials.push_back(
+            fmt::format("\"{}\" (line {})", name, reading.statement.line));
     }
-    bool isNew = reading.usedMaterials.count(name) == 0;
-    if (isNew) reading.missingMaterials.push_back(fmt::format("\"{}\" (line {})", name, s.line));
-    ObjMaterial grey;
-    grey.name = name.empty() ? "default" : name;
-    reading.material = useMaterial(reading, grey);
+    ObjMaterial grey{*name == '\0' ? "default" : name};
+    reading.material = useMaterial(reading, isKnown ? found->second : grey);
 }
 
 /// Second pass: faces and materials.
-void readFaces(ObjReading& reading, std::string_view text)
+void checkOther(ObjReading& reading, std::string& line)
 {
     static const std::set<std::string_view> ignored = {
         "g",   "o",     "s",        "mg",       "vp",         "usemap",   "maplib",
         "lod", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj"};
-    StatementReader statements(text);
-    Statement s;
-    while (statements.next(s)) {
-        if (s.keyword == "v")
-            reading.positionsSoFar++;
-        else if (s.keyword == "vn")
-            reading.normalsSoFar++;
-        else if (s.keyword == "vt")
-            reading.texcoordsSoFar++;
-        else if (s.keyword == "f" || s.keyword == "fo")
-            readFace(reading, s);
-        else if (s.keyword == "usemtl")
-            readMaterialUse(reading, s);
-        else if (s.keyword == "mtllib")
-            readMaterialLibrary(reading, s);
-        else if (s.keyword == "l" || s.keyword == "p")
-            reading.linesAndPoints.add(s);
-        else if (ignored.count(s.keyword) == 0)
-            reading.unknown.add(s);
+    const Statement& s = reading.statement;
+    if (s.keyword == "v")
+        reading.positions.soFar++;
+    else if (s.keyword == "vn")
+        reading.normals.soFar++;
+    else if (s.keyword == "vt")
+        reading.texcoords.soFar++;
+    else if (s.keyword == "f" || s.keyword == "fo")
+        checkFace(reading, line);
+    else if (s.keyword == "usemtl")
+        line.append("usemtl ").append(s.rest);
+    else if (s.keyword == "mtllib")
+        readMaterialLibrary(reading);
+    else if (s.keyword == "l" || s.keyword == "p")
+        reading.linesAndPoints.add(s);
+    else if (ignored.count(s.keyword) == 0)
+        reading.unknown.add(s);
+}
+
+/// Checks the current statement; leaves `line` empty to keep it from tinyobjloader.
+using Check = void(ObjReading& reading, std::string& line);
+
+/// Gives out one checked statement at a time, so that callbacks know the line they are called for.
+class CheckedStatements : public std::streambuf {
+public:
+    CheckedStatements(ObjReading& reading, std::string_view text, Check& check)
+        : reading_(reading), statements_(text, reading.file), check_(check)
+    {
     }
+
+private:
+    int_type underflow() override
+    {
+        line_.clear();
+        while (line_.empty()) {
+            if (!statements_.next(reading_.statement)) return traits_type::eof();
+            check_(reading_, line_);
+        }
+        line_ += '\n';
+        setg(line_.data(), line_.data(), line_.data() + line_.size());
+        return traits_type::to_int_type(line_[0]);
+    }
+
+    ObjReading& reading_;
+    StatementReader statements_;
+    Check& check_;
+    std::string line_;
+};
+
+void readStatements(ObjReading& reading, std::string_view text, Check& check)
+{
+    CheckedStatements statements(reading, text, check);
+    std::istream stream(&statements);
+    stream.exceptions(std::ios::badbit);  // lets errors of the checks through
+    tinyobj::callback_t callbacks;
+    callbacks.vertex_cb = addPosition;
+    callbacks.normal_cb = addNormal;
+    callbacks.index_cb = addFace;
+    callbacks.usemtl_cb = setMaterial;
+    tinyobj::LoadObjWithCallback(stream, callbacks, &reading);
 }
 
 void tellOmissions(const ObjReading& reading)
@@ -308,8 +326,8 @@ ObjFile readObj(const fs::path& file, const PathPolicy& policy)
     reading.file = file.string();
     reading.policy = policy;
     std::string text = normaliseLines(readTextFile(file, MAX_OBJ_BYTES), reading.file);
-    readVertices(reading, text);
-    readFaces(reading, text);
+    readStatements(reading, text, checkVertex);
+    readStatements(reading, text, checkOther);
     tellOmissions(reading);
     if (reading.result.mesh.triangles.empty()) {
         throw badInput("{}: no faces: the file has {} vertices and no face with 3 corners or more",

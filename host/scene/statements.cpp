@@ -1,5 +1,6 @@
 #include "scene/statements.h"
 
+#include "scene/numbers.h"
 #include "util/error.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@ namespace sahl {
 
 namespace {
 
-constexpr std::string_view BLANKS = " \t\v\f";
+constexpr std::string_view BLANKS = " \t";
 
 [[noreturn]] void refuseZeroByte(const std::string& text, size_t at, const std::string& file)
 {
@@ -27,7 +28,7 @@ std::string normaliseLines(const std::string& text, const std::string& file)
     size_t i = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
     for (; i < text.size(); i++) {
         if (text[i] != '\n' && text[i] != '\r') {
-            lines += text[i];
+            lines += text[i] == '\v' || text[i] == '\f' ? ' ' : text[i];
             continue;
         }
         if (text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n') i++;
@@ -54,9 +55,34 @@ bool StatementReader::next(Statement& statement)
         statement.keyword = takeWord(words);
         statement.rest = trimmed(words);
         statement.line = line_;
+        statement.file = file_;
         return true;
     }
     return false;
+}
+
+std::string at(const Statement& statement)
+{
+    return fmt::format("{}:{}", statement.file, statement.line);
+}
+
+size_t checkNumbers(const Statement& statement, size_t least, size_t most, bool allowNotFinite)
+{
+    std::string_view rest = statement.rest;
+    size_t n = 0;
+    for (auto word = takeWord(rest); !word.empty() && word[0] != '#'; word = takeWord(rest), n++) {
+        double value = 0;
+        NumberText how = parseNumber(word, value);
+        if (how == NumberText::notANumber || (how == NumberText::notFinite && !allowNotFinite)) {
+            throw badInput("{}: \"{}\" is not a {}number", at(statement), word.substr(0, 40),
+                           how == NumberText::notFinite ? "finite " : "");
+        }
+    }
+    if (n < least || n > most) {
+        throw badInput("{}: \"{}\" needs {} numbers{}, found {}", at(statement), statement.keyword,
+                       n < least ? least : most, n < least ? "" : " at most", n);
+    }
+    return n;
 }
 
 std::string_view takeWord(std::string_view& rest)

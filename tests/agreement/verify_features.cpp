@@ -1,0 +1,82 @@
+// What `sahl verify` checks, on one small scene for each feature and on the showcase: 0 differing
+// bits.
+
+#include "image/image.h"
+#include "render/verify.h"
+#include "support/device_test.h"
+#include "support/render_scenes.h"
+#include "support/scene_files.h"
+
+namespace sahl::testing {
+namespace {
+
+fs::path testFolder()
+{
+    return fs::path(__FILE__).parent_path() / "..";
+}
+
+/// Colours that differ from texel to texel, as a picture of an angular map.
+void writeAngularMap(const fs::path& path)
+{
+    constexpr uint32_t SIZE = 16;
+    Image image = {SIZE, SIZE, {}};
+    for (uint32_t y = 0; y < SIZE; y++) {
+        for (uint32_t x = 0; x < SIZE; x++) {
+            const float right = static_cast<float>(x) / SIZE, down = static_cast<float>(y) / SIZE;
+            const float stripe = (x + y) % 5 == 0 ? 2.0f : 0.0f;
+            image.rgb.insert(image.rgb.end(),
+                             {0.2f + 2 * right + stripe, 0.3f + down, 1.5f - right + stripe});
+        }
+    }
+    writeFileAtomically(path, encodePfm(image));
+}
+
+class VerifyFeatures : public DeviceTest {
+protected:
+    /// Compares a device with the reference and says whether the picture shows anything.
+    static void expectEqual(Scene scene)
+    {
+        const RenderSettings settings = scene.settings;
+        const PreparedScene prepared = prepareScene(std::move(scene), BvhBuild::automatic, 2);
+        auto device = openFirstDevice();
+        auto cpu = makeCpuDevice({});
+        const VerifyResult result =
+            verifyDevice(*device, *cpu, prepared.deviceScene(), settings.spp, 0, [](double) {});
+        EXPECT_TRUE(result.equal()) << result.differingPixels << " pixels differ";
+        EXPECT_EQ(result.differingFilmBits, 0u);
+        const Counters& counters = result.deviceFilm.counters;
+        EXPECT_EQ(counters.cameraRays, uint64_t{settings.width} * settings.height * settings.spp);
+        EXPECT_GT(counters.indirectRays, counters.cameraRays / 4) << "hardly anything was hit";
+        EXPECT_EQ(counters.badSamples, 0u);
+    }
+};
+
+class VerifySmallScenes : public VerifyFeatures,
+                          public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(VerifySmallScenes, haveNoDifferingBit)
+{
+    const SceneFolder files;
+    writeAngularMap(files.folder.path / "angular.pfm");
+    const std::string name = std::string(GetParam()) + ".json";
+    fs::copy_file(testFolder() / "scenes" / name, files.folder.path / name);
+    expectEqual(files.load(name));
+}
+
+INSTANTIATE_TEST_SUITE_P(, VerifySmallScenes,
+                         ::testing::Values("mirror", "dielectric", "conductor", "report_material",
+                                           "sphere", "lens", "orthographic", "spot", "directional",
+                                           "background", "emission", "angular"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
+TEST_F(VerifyFeatures, showcaseHasNoDifferingBit)
+{
+    SceneOptions options;
+    options.width = 160;
+    options.height = 90;
+    options.spp = 8;
+    expectEqual(loadScene(testFolder() / "../scenes/showcase/showcase.json", options));
+}
+
+}  // namespace
+}  // namespace sahl::testing
