@@ -10,9 +10,15 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-const char* nameOf(BvhBuild build) { return build == BvhBuild::binned ? "binned" : "sweep"; }
+const char* nameOf(BvhBuild build)
+{
+    return build == BvhBuild::binned ? "binned" : "sweep";
+}
 
-double perSecond(uint64_t count, double seconds) { return seconds > 0 ? double(count) / seconds : 0; }
+double perSecond(uint64_t count, double seconds)
+{
+    return seconds > 0 ? double(count) / seconds : 0;
+}
 
 /// Largest resident size of this process so far [bytes].
 uint64_t peakMemory()
@@ -39,12 +45,9 @@ double Stopwatch::total() const
 
 Json countersJson(const Counters& counters)
 {
-    return {{"cameraRays", counters.cameraRays},
-            {"indirectRays", counters.indirectRays},
-            {"shadowRays", counters.shadowRays},
-            {"boxTests", counters.boxTests},
-            {"primitiveTests", counters.primitiveTests},
-            {"bounces", counters.bounces},
+    return {{"cameraRays", counters.cameraRays},         {"indirectRays", counters.indirectRays},
+            {"shadowRays", counters.shadowRays},         {"boxTests", counters.boxTests},
+            {"primitiveTests", counters.primitiveTests}, {"bounces", counters.bounces},
             {"badSamples", counters.badSamples}};
 }
 
@@ -99,7 +102,8 @@ Json statisticsJson(const PreparedScene& prepared, const Film& film, Device& dev
         {"rates",
          {{"samplesPerSecond", perSecond(counters.cameraRays, seconds.render)},
           {"raysPerSecond", perSecond(rays, seconds.render)},
-          {"raysPerSample", counters.cameraRays > 0 ? double(rays) / double(counters.cameraRays) : 0},
+          {"raysPerSample",
+           counters.cameraRays > 0 ? double(rays) / double(counters.cameraRays) : 0},
           {"boxTestsPerRay", rays > 0 ? double(counters.boxTests) / double(rays) : 0},
           {"primitiveTestsPerRay", rays > 0 ? double(counters.primitiveTests) / double(rays) : 0}}},
         {"peakMemoryBytes", peakMemory()},

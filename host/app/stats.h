@@ -14,8 +14,8 @@ struct StageSeconds {
     double load = 0, build = 0, upload = 0, render = 0, write = 0, total = 0;
 };
 
-nlohmann::ordered_json statisticsJson(const PreparedScene& prepared, const Film& film, Device& device,
-                                      const StageSeconds& seconds);
+nlohmann::ordered_json statisticsJson(const PreparedScene& prepared, const Film& film,
+                                      Device& device, const StageSeconds& seconds);
 
 nlohmann::ordered_json countersJson(const Counters& counters);
 

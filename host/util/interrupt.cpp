@@ -28,6 +28,9 @@ void watchInterrupts()
     std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit then shows as a failed write
 }
 
-int interruptSignal() { return arrived; }
+int interruptSignal()
+{
+    return arrived;
+}
 
 }  // namespace sahl

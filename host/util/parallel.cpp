@@ -9,7 +9,10 @@
 
 namespace sahl {
 
-unsigned defaultThreadCount() { return std::max(1u, std::thread::hardware_concurrency()); }
+unsigned defaultThreadCount()
+{
+    return std::max(1u, std::thread::hardware_concurrency());
+}
 
 void parallelFor(size_t count, unsigned threads, const std::function<void(size_t)>& body)
 {

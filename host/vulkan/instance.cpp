@@ -1,5 +1,7 @@
 #include "vulkan/instance.h"
 
+#include "util/messages.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
@@ -19,7 +21,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL printMessage(VkDebugUtilsMessageSeverityFlagBitsE
                                             const VkDebugUtilsMessengerCallbackDataEXT* data, void*)
 {
     messageCount++;
-    fmt::print(stderr, "vulkan validation: {}\n", data->pMessage);
+    say("vulkan validation: {}\n", data->pMessage);
     return VK_FALSE;
 }
 

@@ -22,7 +22,7 @@ protected:
         Arguments arguments = {"render", "ball.json", "--device", "cpu", "--spp", "16777216"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         options.folder = folder;
-        RunningProgram program(SAHL_PROGRAM, arguments, withoutLeakCheck(options));
+        RunningProgram program(SAHL_PROGRAM, arguments, options);
         program.waitForHandler(SIGINT);
         program.waitForError([&](const std::string& text) { return has(text, sign); });
         ::usleep(300'000);

@@ -174,7 +174,7 @@ TEST_F(Outputs, killWhileSaving_leavesTheOldOrTheNewFile)
         RunningProgram program(SAHL_PROGRAM,
                                {"render", "ball.json", "--device", "cpu", "-o", "a.pfm", "--width",
                                 "300", "--height", "300", "--spp", "1"},
-                               withoutLeakCheck(here()));
+                               here());
         EXPECT_TRUE(watch.waitFor(moment.event, moment.count));
         program.signal(SIGKILL);
         program.finish();
@@ -193,7 +193,7 @@ TEST_F(Outputs, twoProcessesWithOneOutput_leaveOneOfThePictures)
             return std::make_unique<RunningProgram>(
                 SAHL_PROGRAM,
                 Arguments{"render", "ball.json", "--device", "cpu", "-o", "a.exr", "--seed", seed},
-                withoutLeakCheck(here()));
+                here());
         };
         auto first = start("1");
         auto second = start("2");

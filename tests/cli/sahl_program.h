@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -28,7 +29,8 @@ inline RunOptions withoutLeakCheck(RunOptions options)
 
 inline RunResult sahl(const Arguments& arguments, const RunOptions& options = {})
 {
-    return runProgram(SAHL_PROGRAM, arguments, withoutLeakCheck(options));
+    bool onCpu = std::find(arguments.begin(), arguments.end(), "cpu") != arguments.end();
+    return runProgram(SAHL_PROGRAM, arguments, onCpu ? options : withoutLeakCheck(options));
 }
 
 inline std::string textOf(const fs::path& path)

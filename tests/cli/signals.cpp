@@ -34,7 +34,7 @@ protected:
         Arguments arguments = {"render", "ball.json", "--device",   "cpu", "--threads", "1",
                                "--spp",  ENDLESS,     "--progress", "bar", "-o",        "a.exr"};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        return std::make_unique<RunningProgram>(SAHL_PROGRAM, arguments, withoutLeakCheck(here()));
+        return std::make_unique<RunningProgram>(SAHL_PROGRAM, arguments, here());
     }
 };
 
@@ -132,8 +132,7 @@ TEST_F(Signals, interruptedVerification_decidesNothing)
 {
     RunningProgram program(
         SAHL_PROGRAM,
-        {"verify", "ball.json", "--device", "cpu", "--spp", ENDLESS, "--progress", "bar"},
-        withoutLeakCheck(here()));
+        {"verify", "ball.json", "--device", "cpu", "--spp", ENDLESS, "--progress", "bar"}, here());
     ASSERT_TRUE(program.waitForError([](const std::string& text) { return has(text, " %"); }));
     program.signal(SIGINT);
     RunResult result = program.finish();
