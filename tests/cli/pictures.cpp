@@ -183,7 +183,7 @@ TEST_F(Pictures, statistics_addUp)
     const auto& counters = statistics["counters"];
     EXPECT_EQ(statistics["version"], 1);
     EXPECT_EQ(statistics["scene"]["width"], 16);
-    EXPECT_EQ(statistics["scene"]["triangles"], 20 * 4 * 4);
+    EXPECT_EQ(statistics["scene"]["primitives"], 20 * 4 * 4);
     EXPECT_EQ(statistics["tree"]["leaves"], statistics["tree"]["innerNodes"].get<int>() + 1);
     EXPECT_EQ(counters["cameraRays"], 16 * 12 * 4);
     EXPECT_GT(counters["indirectRays"], 0);
