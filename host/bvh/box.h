@@ -1,10 +1,9 @@
-// Axis-aligned boxes of primitives, to the bit those of primitiveBox() in pathtrace/traverse.glsl.
-// The traversal relies on that (a box never starts later than what it encloses), so nothing is
-// padded.
+// Axis-aligned boxes of primitives: what they cover, and what the tree is built from.
 #pragma once
 
 #include "shared/scene_types.h"
 
+#include <cmath>
 #include <limits>
 
 namespace sahl {
@@ -38,7 +37,7 @@ inline void grow(Box& box, const Box& other)
 }
 
 /// The corners' own coordinates for a triangle, the centre -+ the radius in float for a sphere.
-inline Box boxOf(const Primitive& primitive)
+inline Box extentOf(const Primitive& primitive)
 {
     Box box;
     if (primitive.shape == SHAPE_SPHERE) {
@@ -49,6 +48,26 @@ inline Box boxOf(const Primitive& primitive)
     grow(box, primitive.p0, primitive.p0);
     grow(box, primitive.p1, primitive.p1);
     grow(box, primitive.p2, primitive.p2);
+    return box;
+}
+
+/// WIDENING of pathtrace/traverse.glsl.
+constexpr float BOX_WIDENING = 7.15255737e-07f;
+
+/// The box by which the traversal finds a primitive: to the bit that of primitiveBox() in
+/// pathtrace/traverse.glsl, which relies on a box never starting later than what it encloses.
+inline Box boxOf(const Primitive& primitive)
+{
+    Box box = extentOf(primitive);
+    float size = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        size = greater(size, greater(std::abs(box.lo[axis]), std::abs(box.hi[axis])));
+    }
+    constexpr float LARGEST = std::numeric_limits<float>::max();
+    for (int axis = 0; axis < 3; axis++) {
+        box.lo[axis] = greater(box.lo[axis] - size * BOX_WIDENING, -LARGEST);
+        box.hi[axis] = lesser(box.hi[axis] + size * BOX_WIDENING, LARGEST);
+    }
     return box;
 }
 

@@ -35,7 +35,7 @@ void requireSoundSphere(const Primitive& sphere)
         throw badInput("primitive {} is a sphere of radius {}; the radius must be positive",
                        sphere.number, sphere.p1.x);
     }
-    const Box box = boxOf(sphere);
+    const Box box = extentOf(sphere);
     if (!isFinite(box.lo) || !isFinite(box.hi)) {
         throw badInput("primitive {} is a sphere that is not finite or reaches beyond the range of "
                        "numbers; scale the scene down",

@@ -136,7 +136,7 @@ CameraDescription framePrimitives(const Scene& scene)
     CameraDescription description;
     if (scene.primitives.empty()) return description;
     Box box;
-    for (const Primitive& primitive : scene.primitives) grow(box, boxOf(primitive));
+    for (const Primitive& primitive : scene.primitives) grow(box, extentOf(primitive));
     const glm::dvec3 lo(box.lo), hi(box.hi);
     glm::dvec3 center = (lo + hi) * 0.5;
     glm::dvec3 towardsEye(0.55, 0.42, 1.0);

@@ -49,7 +49,7 @@ void warnAboutOddScene(const Scene& scene)
 {
     float largest = 0;
     for (const Primitive& primitive : scene.primitives) {
-        const Box box = boxOf(primitive);
+        const Box box = extentOf(primitive);
         for (const vec3& p : {box.lo, box.hi}) {
             largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         }

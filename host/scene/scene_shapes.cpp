@@ -230,7 +230,7 @@ void nameShape(SceneReading& reading, const JsonObject& shape, size_t first)
     const std::string name = shape.string("name", "");
     Box box;
     for (size_t i = first; i < reading.scene.primitives.size(); i++)
-        grow(box, boxOf(reading.scene.primitives[i]));
+        grow(box, extentOf(reading.scene.primitives[i]));
     if (name.empty())
         throw errorAt(shape.document(), shape.at("name"), "the name of a shape is empty");
     if (!reading.namedShapes.emplace(name, box).second) {

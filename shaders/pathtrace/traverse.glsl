@@ -6,12 +6,19 @@
 // box is entered behind the closest hit holds nothing closer. Equal distances go to the smallest
 // primitive number.
 
+// A ray that meets a primitive must meet its box. The test of a triangle may take the ray to be beside
+// where it is by 7 roundings (2^-24) of the farthest corner's coordinates relative to the origin, that of
+// a sphere by fewer, the test of a box its planes by 3. So boxes and rays' origins are widened by 12
+// roundings of their largest coordinate; 2 are left for the widening itself.
+CONST float WIDENING = 7.15255737e-07f;
+CONST float LARGEST_FLOAT = 3.40282347e+38f;
+
 // What box tests need of a ray.
 struct BoxRay
 {
     vec3 inverse;  // 1 / direction, clamped so that no axis is infinite
-    vec3 orgLo;    // origin moved outwards a little for the lower and the upper planes of a box, so
-    vec3 orgHi;    // that a ray inside a box's plane meets the box
+    vec3 orgLo;    // origin widened for the lower and the upper planes of a box, so that a ray inside a
+    vec3 orgHi;    // box's plane meets the box
 };
 
 float clampedInverse(float d)
@@ -23,7 +30,7 @@ BoxRay makeBoxRay(vec3 org, vec3 dir)
 {
     BoxRay ray;
     ray.inverse = vec3(clampedInverse(dir.x), clampedInverse(dir.y), clampedInverse(dir.z));
-    vec3 pad = absolute3(org) * 2.38418579e-07f + vec3(1e-20f);
+    vec3 pad = vec3(maxComponent(absolute3(org)) * WIDENING + 1e-20f);
     ray.orgLo = org + pad;
     ray.orgHi = org - pad;
     return ray;
@@ -54,20 +61,29 @@ Traversal beginTraversal(float tMax)
     return walk;
 }
 
-/// Corners of the box of a primitive. The host builds the tree from the same boxes.
+vec3 lesser3(vec3 a, vec3 b)
+{
+    return vec3(min2(a.x, b.x), min2(a.y, b.y), min2(a.z, b.z));
+}
+
+vec3 greater3(vec3 a, vec3 b)
+{
+    return vec3(max2(a.x, b.x), max2(a.y, b.y), max2(a.z, b.z));
+}
+
+/// Corners of the widened box of a primitive. The host builds the tree from the same boxes.
 void primitiveBox(Primitive shape, OUT(vec3) lo, OUT(vec3) hi)
 {
     if (shape.shape == SHAPE_SPHERE) {
         lo = shape.p0 - vec3(shape.p1.x);
         hi = shape.p0 + vec3(shape.p1.x);
-        return;
+    } else {
+        lo = lesser3(lesser3(shape.p0, shape.p1), shape.p2);
+        hi = greater3(greater3(shape.p0, shape.p1), shape.p2);
     }
-    lo = vec3(min2(min2(shape.p0.x, shape.p1.x), shape.p2.x),
-              min2(min2(shape.p0.y, shape.p1.y), shape.p2.y),
-              min2(min2(shape.p0.z, shape.p1.z), shape.p2.z));
-    hi = vec3(max2(max2(shape.p0.x, shape.p1.x), shape.p2.x),
-              max2(max2(shape.p0.y, shape.p1.y), shape.p2.y),
-              max2(max2(shape.p0.z, shape.p1.z), shape.p2.z));
+    float size = maxComponent(greater3(absolute3(lo), absolute3(hi)));
+    lo = greater3(lo - vec3(size * WIDENING), vec3(-LARGEST_FLOAT));
+    hi = lesser3(hi + vec3(size * WIDENING), vec3(LARGEST_FLOAT));
 }
 
 /// Tests the primitive in `slot` and keeps it in `walk` when it is the closest so far.

@@ -173,13 +173,7 @@ private:
         Box box;
         for (uint i = first; i < first + count; i++) {
             seen_.at(i)++;
-            const Primitive& t = bvh_.primitives[i];
-            if (t.shape == SHAPE_SPHERE) {
-                const vec3 radius(t.p1.x);
-                grow(box, t.p0 - radius, t.p0 + radius);
-                continue;
-            }
-            for (const vec3& p : {t.p0, t.p1, t.p2}) grow(box, p, p);
+            grow(box, boxOf(bvh_.primitives[i]));
         }
         return box;
     }
@@ -309,8 +303,8 @@ TEST(Bvh, twoTriangles_areALeafWhenTogetherAndANodeWhenApart)
     EXPECT_EQ(node.rootRef, 0u);
     EXPECT_EQ(node.nodes[0].ref0, REF_LEAF);
     EXPECT_EQ(node.nodes[0].ref1, REF_LEAF | 1u << LEAF_COUNT_BITS);
-    EXPECT_EQ(node.nodes[0].lo1, vec3(0, 0, 9));
-    EXPECT_EQ(node.nodes[0].hi1, vec3(1, 1, 9));
+    EXPECT_EQ(node.nodes[0].lo1, vec3(0, 0, 9) - 9 * BOX_WIDENING);
+    EXPECT_EQ(node.nodes[0].hi1, vec3(1, 1, 9) + 9 * BOX_WIDENING);
 }
 
 TEST(Bvh, automatic_sweepsSmallScenesAndBinsLargeOnes)
@@ -349,12 +343,26 @@ TEST(Bvh, boxesEncloseSpheres)
                   std::ldexp(1 + random.uniform(), int(random.below(24)) - 12));
     }
     for (const Primitive& sphere : all) {
-        const Box box = boxOf(sphere);
+        const Box box = extentOf(sphere);
         for (int axis = 0; axis < 3; axis++) {
             const double centre = double{sphere.p0[axis]}, radius = double{sphere.p1.x};
             const double rounding = 0x1p-24 * (std::abs(centre) + radius);
             EXPECT_NEAR(box.lo[axis], centre - radius, rounding);
             EXPECT_NEAR(box.hi[axis], centre + radius, rounding);
+        }
+    }
+}
+
+/// By 12 roundings of the largest coordinate, less those of the subtraction.
+TEST(Bvh, boxesAreWiderThanWhatTheyHold)
+{
+    for (const Primitive& triangle : randomSoup(2000, 0.1f, 6)) {
+        const Box box = boxOf(triangle);
+        for (const vec3& p : {triangle.p0, triangle.p1, triangle.p2}) {
+            for (int axis = 0; axis < 3; axis++) {
+                EXPECT_LE(box.lo[axis], p[axis] - 11 * 0x1p-24f * std::abs(p[axis]));
+                EXPECT_GE(box.hi[axis], p[axis] + 11 * 0x1p-24f * std::abs(p[axis]));
+            }
         }
     }
 }
@@ -366,10 +374,11 @@ TEST(Bvh, twoSpheresApart_haveTheirBoxesInOneNode)
     addSphere(apart, {0, 0, 9}, 2);
     const Bvh bvh = buildBvh(apart, BvhBuild::sweep, 1);
     ASSERT_EQ(bvh.nodes.size(), 1u);
-    EXPECT_EQ(bvh.nodes[0].lo0, vec3(-0.5f, -0.5f, -0.5f));
-    EXPECT_EQ(bvh.nodes[0].hi0, vec3(0.5f, 0.5f, 0.5f));
-    EXPECT_EQ(bvh.nodes[0].lo1, vec3(-2, -2, 7));
-    EXPECT_EQ(bvh.nodes[0].hi1, vec3(2, 2, 11));
+    const float first = 0.5f * BOX_WIDENING, second = 11 * BOX_WIDENING;
+    EXPECT_EQ(bvh.nodes[0].lo0, vec3(-0.5f, -0.5f, -0.5f) - first);
+    EXPECT_EQ(bvh.nodes[0].hi0, vec3(0.5f, 0.5f, 0.5f) + first);
+    EXPECT_EQ(bvh.nodes[0].lo1, vec3(-2, -2, 7) - second);
+    EXPECT_EQ(bvh.nodes[0].hi1, vec3(2, 2, 11) + second);
 }
 
 TEST(Bvh, refusesSpheresWithoutASoundRadius)
