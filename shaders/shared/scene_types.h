@@ -72,7 +72,8 @@ SHARED_CONST uint MATERIAL_REPORT = 4u;      // the report's: weights of a diffu
 struct Material
 {
     vec3 baseColor;       // linear Rec. 709, in [0,1]
-    float eta;            // index of refraction behind the surface, relative to vacuum; > 0
+    float eta;            // index of refraction behind the surface, relative to that in front of it
+                          // (MATERIAL_REPORT: to vacuum); > 0
     vec3 emission;        // radiance on both sides [W m^-2 sr^-1], linear Rec. 709
     uint type;            // one of MATERIAL_*
     vec3 conductorEta;    // complex index of refraction eta + i k at red, green and blue
