@@ -49,7 +49,8 @@ std::vector<Primitive> trianglesOf(const Mesh& mesh)
     return triangles;
 }
 
-/// A closed mesh and a way to find points well inside.
+/// A closed mesh and a way to find points well inside. (The teapot is none: its lid lies loose on
+/// it.)
 struct Hull {
     std::vector<Primitive> triangles;
     std::function<vec3(Random&)> inside;

@@ -32,6 +32,15 @@ public:
         float y = uniform(-half, half);
         return {x, y, uniform(-half, half)};
     }
+    /// Unit, uniform over the sphere.
+    vec3 direction()
+    {
+        for (;;) {
+            const vec3 v = inCube(1);
+            const float size2 = glm::dot(v, v);
+            if (size2 > 0.01f && size2 < 1) return v / std::sqrt(size2);
+        }
+    }
 
 private:
     uint64_t state_;
