@@ -24,6 +24,15 @@ float anyNumber(std::mt19937& random)
 
 }  // namespace
 
+bool areExact(std::span<const glm::vec2> operands, std::span<const glm::vec2> results)
+{
+    for (size_t i = 0; i < operands.size(); i++) {
+        if (results[i].x != operands[i].x / operands[i].y) return false;
+        if (results[i].y != std::sqrt(operands[i].x)) return false;
+    }
+    return true;
+}
+
 bool dividesExactly(Context& context)
 {
     std::mt19937 random(1);
@@ -39,11 +48,7 @@ bool dividesExactly(Context& context)
     runCompute(context, kernelSpirv("math_probe"),
                {std::as_writable_bytes(std::span(operands)), std::as_writable_bytes(std::span(results))},
                parameters);
-    for (uint32_t i = 0; i < PAIRS; i++) {
-        if (results[i].x != operands[i].x / operands[i].y) return false;
-        if (results[i].y != std::sqrt(operands[i].x)) return false;
-    }
-    return true;
+    return areExact(operands, results);
 }
 
 bool chooseExactMath(Context& context, DeviceOptions::Math wanted)

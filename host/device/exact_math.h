@@ -4,6 +4,8 @@
 #include "device/device.h"
 #include "vulkan/context.h"
 
+#include <span>
+
 namespace sahl {
 
 /// True when the kernels must use the exact division and root of pathtrace/exact.glsl: as asked for,
@@ -14,5 +16,8 @@ bool chooseExactMath(Context& context, DeviceOptions::Math wanted);
 /// True when the device's own division and root give C++'s bits for 2^16 pairs: random mantissas and
 /// exponents, and divisors just below a power of two, which approximations get wrong.
 bool dividesExactly(Context& context);
+
+/// True when results[i] is (x / y, square root of x) of operands[i], as C++ rounds them.
+bool areExact(std::span<const glm::vec2> operands, std::span<const glm::vec2> results);
 
 }  // namespace sahl

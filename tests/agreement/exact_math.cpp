@@ -97,6 +97,21 @@ TEST_F(ExactMath, isNeededOnNoDriverThatWasMeasured)
     EXPECT_TRUE(chooseExactMath(*context, DeviceOptions::Math::exact));
 }
 
+TEST_F(ExactMath, wouldBeSeenToBeNeededFromOneWrongBit)
+{
+    const std::vector<glm::vec2> operands = {{1, 3}, {2, 7}, {5, 0x1.fffffep-1f}};
+    std::vector<glm::vec2> results;
+    for (glm::vec2 pair : operands) results.emplace_back(pair.x / pair.y, std::sqrt(pair.x));
+    EXPECT_TRUE(areExact(operands, results));
+    for (size_t i = 0; i < results.size(); i++) {
+        for (int k = 0; k < 2; k++) {
+            auto wrong = results;
+            wrong[i][k] = std::nextafter(wrong[i][k], 100.0f);
+            EXPECT_FALSE(areExact(operands, wrong)) << i << ", " << k;
+        }
+    }
+}
+
 class LongExactMath : public ExactMath {};
 
 TEST_F(LongExactMath, dividesABillionPairsAsCppDoes)
