@@ -85,17 +85,16 @@ std::vector<fs::path> checkOutputs(const RenderOptions& options)
     return outputs;
 }
 
-/// The EXR's channels beside the light: sample counts and variance, and what camera rays meet.
-std::vector<ImageChannel> channelsOf(const RenderOptions& options, const PreparedScene& prepared,
-                                     const Film& film, Device& device)
+/// What camera rays meet, as channels of the EXR. Made before the light, so that a picture that gets
+/// interrupted has them too.
+std::vector<ImageChannel> firstHitLayers(const RenderOptions& options, const PreparedScene& prepared,
+                                         Device& device)
 {
-    std::vector<ImageChannel> channels = statisticsChannels(film);
-    if (!options.output.firstHits) return channels;
-    uint32_t samples = std::min(BLOCK_SIZE, prepared.scene.settings.spp);
-    auto layers = firstHitChannels(renderFirstHits(device, film.width, film.height, samples), samples,
-                                   prepared.scene.objectStarts);
-    channels.insert(channels.end(), layers.begin(), layers.end());
-    return channels;
+    if (!options.output.firstHits) return {};
+    const RenderSettings& settings = prepared.scene.settings;
+    uint32_t samples = std::min(BLOCK_SIZE, settings.spp);
+    return firstHitChannels(renderFirstHits(device, settings.width, settings.height, samples), samples,
+                            prepared.scene.objectStarts);
 }
 
 ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_t samplesTaken,
@@ -180,6 +179,7 @@ int runRender(RenderOptions& options)
     seconds.upload = watch.lap();
 
     const RenderSettings& settings = prepared.scene.settings;
+    std::vector<ImageChannel> channels = firstHitLayers(options, prepared, *device);
     ProgressPrinter printer(options.common.progress, options.common.quiet, settings.spp);
     RenderPlan plan = {settings.width, settings.height, 0, settings.spp, options.common.tileSize};
     RenderResult result = renderPicture(
@@ -190,15 +190,16 @@ int runRender(RenderOptions& options)
     if (result.interrupted) sayInterrupted(options, settings, result);
     if (result.film.counters.cameraRays == 0) return interruptedExitCode();
 
+    std::vector<ImageChannel> statistics = statisticsChannels(result.film);
+    channels.insert(channels.end(), statistics.begin(), statistics.end());
     uint32_t samplesTaken = std::min(settings.spp, result.passes * BLOCK_SIZE);
     writeOutputs(result.film, options.output,
-                 metadataOf(prepared.scene, result, samplesTaken, *device),
-                 channelsOf(options, prepared, result.film, *device));
+                 metadataOf(prepared.scene, result, samplesTaken, *device), channels);
     seconds.write = watch.lap();
     seconds.total = watch.total();
     if (!options.statsPath.empty()) {
-        auto statistics = statisticsJson(prepared, result.film, *device, seconds);
-        writeFileAtomically(options.statsPath, statistics.dump(2) + "\n");
+        auto json = statisticsJson(prepared, result.film, *device, seconds);
+        writeFileAtomically(options.statsPath, json.dump(2) + "\n");
     }
 
     printSummary(options, prepared, result);
