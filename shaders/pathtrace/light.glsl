@@ -36,7 +36,7 @@ LightSample illuminate(Light light, vec3 p)
     ls.distance = root(d2);
     ls.wi = toLight * quotient(1.0f, ls.distance);
     float share = light.type == LIGHT_SPOT ? spotFalloff(light, -dot3(ls.wi, light.direction)) : 1.0f;
-    ls.Li = light.intensity * quotient(share, d2);
+    ls.Li = light.intensity * flushed(quotient(share, d2));
     return ls;
 }
 
