@@ -12,13 +12,15 @@ void readFilm(SceneReading& reading, const JsonNode& node)
     RenderSettings& settings = reading.scene.settings;
     settings.width = film.uint("width", settings.width, 1, MAX_PICTURE_SIDE);
     settings.height = film.uint("height", settings.height, 1, MAX_PICTURE_SIDE);
+    settings.jitter = film.boolean("jitter", settings.jitter);
 }
 
 void readIntegrator(SceneReading& reading, const JsonNode& node)
 {
     JsonObject integrator(reading.document, node, "the integrator", "integrator");
-    integrator.choice("type", {"path"});
     RenderSettings& settings = reading.scene.settings;
+    bool phong = integrator.choice("type", {"path", "phong"}) == "phong";
+    settings.integrator = phong ? INTEGRATOR_PHONG : INTEGRATOR_PATH;
     settings.maxBounces = integrator.uint("maxBounces", settings.maxBounces, 0, MAX_BOUNCES);
     settings.spp = integrator.uint("samplesPerPixel", settings.spp, 1, MAX_SAMPLES);
     settings.seed = integrator.uint("seed", settings.seed, 0, 0xffffffffu);

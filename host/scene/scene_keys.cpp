@@ -85,7 +85,7 @@ const std::vector<KeySet>& sceneKeys()
         {"orthographicCamera",
          {"type", "eye", "lookAt", "up", "height"},
          {"type", "eye", "lookAt", "height"}},
-        {"film", {"width", "height"}, {}},
+        {"film", {"width", "height", "jitter"}, {}},
         {"integrator", {"type", "maxBounces", "samplesPerPixel", "seed"}, {}},
         {"lambertMaterial", {"type", "baseColor", "emission"}, {"type"}},
         {"mirrorMaterial", {"type", "baseColor", "emission"}, {"type"}},

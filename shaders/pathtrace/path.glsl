@@ -83,8 +83,8 @@ void seeEnvironment(INOUT(PathState) path)
     path.phase = PHASE_ENDED;
 }
 
-/// Local shading of the report's first pictures: light that lambert reflects from every light, whether
-/// or not something stands between. A normal that faces away from the light gives black.
+/// Local shading of the report's first pictures: what the diffuse part of a material reflects from every
+/// light, whether or not something stands between. A normal that faces away from the light gives black.
 void shadePhong(Traversal hit, INOUT(PathState) path)
 {
     tally.bounces++;
@@ -92,11 +92,12 @@ void shadePhong(Traversal hit, INOUT(PathState) path)
     Material material = loadMaterial(isect.material);
     path.L = path.L + material.emission;
     path.phase = PHASE_ENDED;
+    vec3 reflectance = material.baseColor * (diffuseShare(material) * INV_PI);
     uint i = 0u;
     while (i < frame.lightCount) {
         LightSample ls = illuminate(loadLight(i), isect.p);
         float cosine = max2(0.0f, dot3(ls.wi, isect.nsStored));
-        path.L = path.L + material.baseColor * ls.Li * (cosine * INV_PI);
+        path.L = path.L + reflectance * ls.Li * cosine;
         i++;
     }
     if (i != frame.lightCount) faults |= FAULT_LOOP_CUT;

@@ -182,12 +182,36 @@ TEST(PointLight, severalLightsAddUp)
     expectMean(frameMean(std::move(scene), 1024), 2 / std::numbers::pi);
 }
 
-TEST(PointLight, isBlockedByWhatStandsBefore)
+/// A screen between the plane and a light beside the camera.
+Scene screenedPlane()
 {
     Scene scene = spotOnPlane(1);
     appendShape(scene, makeRectangle({0.5, 0.5, -0.2}, {0.4, 0, 0}, {0, 0, 0.4}), {}, 0, "screen");
     addPointLight(scene, {2, 1.5, 0}, 1);
-    EXPECT_EQ(frameMean(std::move(scene), 8).value, 0.0);
+    return scene;
+}
+
+TEST(PointLight, isBlockedByWhatStandsBefore)
+{
+    EXPECT_EQ(frameMean(screenedPlane(), 8).value, 0.0);
+}
+
+TEST(Phong, seesLightsThroughWhatStandsBefore)
+{
+    Scene scene = screenedPlane();
+    scene.settings.integrator = INTEGRATOR_PHONG;
+    // 2.5 m away, at a cosine of 1.5 / 2.5.
+    expectMean(frameMean(std::move(scene), 8), 1 / std::numbers::pi * 0.6 / 6.25);
+}
+
+TEST(Phong, addsAllLightsAndLeavesOutThoseBehind)
+{
+    Scene scene = spotOnPlane(0.5f);
+    scene.settings.integrator = INTEGRATOR_PHONG;
+    addPointLight(scene, {0, 1, 0}, 1);
+    addPointLight(scene, {0, 2, 0}, 4);
+    addPointLight(scene, {0, -1, 0}, 100);
+    expectMean(frameMean(std::move(scene), 1), 0.5 * 2 / std::numbers::pi);
 }
 
 TEST(Emission, isSeenFromBothSides)

@@ -53,6 +53,16 @@ TEST(JsonScene, readsFilmIntegratorMaterialsAndLights)
     EXPECT_EQ(scene.probe.height, 0u);
 }
 
+TEST(JsonScene, choosesThePhongIntegratorAndPixelCentres)
+{
+    Scene plain = loadJson("{}");
+    EXPECT_EQ(plain.settings.integrator, INTEGRATOR_PATH);
+    EXPECT_TRUE(plain.settings.jitter);
+    Scene phong = loadJson(R"({ "integrator": { "type": "phong" }, "film": { "jitter": false } })");
+    EXPECT_EQ(phong.settings.integrator, INTEGRATOR_PHONG);
+    EXPECT_FALSE(phong.settings.jitter);
+}
+
 TEST(JsonScene, optionsOverrideTheFile)
 {
     SceneOptions options;
