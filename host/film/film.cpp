@@ -40,6 +40,38 @@ Counters countersOf(const PixelBlock& block)
     return counters;
 }
 
+Fixed64x64 fixedOf(const uvec4& words)
+{
+    return {uint64_t{words.w} << 32 | words.z, uint64_t{words.y} << 32 | words.x};
+}
+
+uint64_t countOf(const uvec2& words)
+{
+    return uint64_t{words.y} << 32 | words.x;
+}
+
+void addSums(HalfPixel& pixel, const FilmSums& sums, uint32_t samples)
+{
+    pixel.sum[0].add(fixedOf(sums.red));
+    pixel.sum[1].add(fixedOf(sums.green));
+    pixel.sum[2].add(fixedOf(sums.blue));
+    pixel.sumY2.add(fixedOf(sums.y2));
+    pixel.samples += samples;
+}
+
+Counters countersOf(const FilmPixel& pixel)
+{
+    Counters counters;
+    counters.cameraRays = uint64_t{pixel.samplesA} + pixel.samplesB;
+    counters.indirectRays = countOf(pixel.indirectRays);
+    counters.shadowRays = countOf(pixel.shadowRays);
+    counters.boxTests = countOf(pixel.boxTests);
+    counters.primitiveTests = countOf(pixel.primitiveTests);
+    counters.bounces = countOf(pixel.bounces);
+    counters.badSamples = pixel.badSamples;
+    return counters;
+}
+
 }  // namespace
 
 Film::Film(uint32_t filmWidth, uint32_t filmHeight) : width(filmWidth), height(filmHeight)
@@ -64,6 +96,26 @@ void Film::add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,
             addBlock(target[pixel], block);
             digest[pixel] += block.digest;
             counters.add(countersOf(block));
+        }
+    }
+}
+
+void Film::add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,
+               std::span<const AdaptivePixel> pixels, bool withNewestPass)
+{
+    assert(x <= width && tileWidth <= width - x && y <= height && tileHeight <= height - y);
+    assert(pixels.size() == size_t{tileWidth} * tileHeight);
+    for (uint32_t row = 0; row < tileHeight; row++) {
+        for (uint32_t column = 0; column < tileWidth; column++) {
+            const AdaptivePixel& from = pixels[size_t{row} * tileWidth + column];
+            const size_t pixel = size_t{y + row} * width + x + column;
+            addSums(half[0][pixel], from.film.sumsA, from.film.samplesA);
+            addSums(half[1][pixel], from.film.sumsB, from.film.samplesB);
+            digest[pixel] += from.film.digest;
+            counters.add(countersOf(from.film));
+            if (!withNewestPass || from.block.samplesDone == 0) continue;
+            const uint32_t firstSample = from.film.samplesA + from.film.samplesB;
+            add(x + column, y + row, 1, 1, firstSample, {&from.block, 1});
         }
     }
 }
