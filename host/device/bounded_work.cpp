@@ -16,7 +16,8 @@ constexpr double SUBMISSION_SECONDS = 0.25;  // aimed at: watchdogs of real GPUs
 
 }  // namespace
 
-BoundedWork::BoundedWork(const PhysicalDevice& device, uint32_t stepBudget, DeviceStatistics& statistics)
+BoundedWork::BoundedWork(const PhysicalDevice& device, uint32_t stepBudget,
+                         DeviceStatistics& statistics)
     : device_(device.name), statistics_(statistics)
 {
     statistics_.stepBudget = stepBudget > 0 ? stepBudget : defaultStepBudget(device);
@@ -71,7 +72,8 @@ void BoundedWork::runInParts(uint64_t pixels, uint32_t dispatches,
                              const std::function<void(uint32_t, bool, bool)>& submit)
 {
     for (uint32_t done = 0; done < dispatches;) {
-        double fit = secondsPerPixel_ > 0 ? SUBMISSION_SECONDS / (secondsPerPixel_ * double(pixels)) : 1;
+        double fit =
+            secondsPerPixel_ > 0 ? SUBMISSION_SECONDS / (secondsPerPixel_ * double(pixels)) : 1;
         auto count = static_cast<uint32_t>(std::clamp(fit, 1.0, double(dispatches - done)));
         auto start = std::chrono::steady_clock::now();
         submit(count, done == 0, done + count == dispatches);

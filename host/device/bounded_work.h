@@ -1,5 +1,6 @@
 // Work on a Vulkan device is bounded: an invocation takes so many steps a dispatch and no more, a
-// submission so much time; what is left is dispatched again, and drivers that get nowhere are given up.
+// submission so much time; what is left is dispatched again, and drivers that get nowhere are given
+// up.
 #pragma once
 
 #include "device/device.h"
@@ -28,14 +29,15 @@ public:
     /// `stepBudget` 0: as fits the device. Counts in `statistics`, which must outlive this.
     BoundedWork(const PhysicalDevice& device, uint32_t stepBudget, DeviceStatistics& statistics);
 
-    /// Goes on from `state` until no sample is missing: paths that ran out of steps go on, pixels in
-    /// which a loop was cut go again with fewer steps. Throws deviceLost when that does not help.
+    /// Goes on from `state` until no sample is missing: paths that ran out of steps go on, pixels
+    /// in which a loop was cut go again with fewer steps. Throws deviceLost when that does not
+    /// help.
     ///   runRound(n)  runs n dispatches, in submissions as below
     void finish(const BoundedTask& task, RoundState state,
                 const std::function<RoundState(uint32_t dispatches)>& runRound);
 
-    /// Calls submit(n, isFirst, isLast) so that the n add up to `dispatches` and each call takes about a
-    /// quarter of a second.
+    /// Calls submit(n, isFirst, isLast) so that the n add up to `dispatches` and each call takes
+    /// about a quarter of a second.
     void runInParts(uint64_t pixels, uint32_t dispatches,
                     const std::function<void(uint32_t count, bool isFirst, bool isLast)>& submit);
 

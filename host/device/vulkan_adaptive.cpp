@@ -4,7 +4,6 @@
 #include "shared/bindings.h"
 #include "util/error.h"
 
-#include <algorithm>
 #include <chrono>
 
 namespace sahl {
@@ -49,8 +48,8 @@ VulkanAdaptiveTile::VulkanAdaptiveTile(const AdaptiveHost& host, const TileReque
 {
     active_.size = tile.width * tile.height;
     uint64_t bytes = sizeof(AdaptiveCounts) + uint64_t{active_.size} * sizeof(AdaptivePixel);
-    buffer_ = createBuffer(host_.context, {"adaptive pixels", bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                           HostUse::readBack});
+    buffer_ = createBuffer(host_.context, {"adaptive pixels", bytes,
+                                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, HostUse::readBack});
     runCommands(host_.context, name(), [&](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, buffer_.handle.get(), 0, VK_WHOLE_SIZE, 0);
         recordBarrier(commands, TRANSFER_WRITE, COMPUTE_USE);
@@ -59,8 +58,8 @@ VulkanAdaptiveTile::VulkanAdaptiveTile(const AdaptiveHost& host, const TileReque
 
 std::string VulkanAdaptiveTile::name() const
 {
-    return fmt::format("adaptive tile {}x{} at {},{}, pass {}", tile_.width, tile_.height, tile_.x, tile_.y,
-                       passes_ + 1);
+    return fmt::format("adaptive tile {}x{} at {},{}, pass {}", tile_.width, tile_.height, tile_.x,
+                       tile_.y, passes_ + 1);
 }
 
 /// Tiles share pipelines, and a pipeline has one descriptor set.
@@ -94,8 +93,8 @@ AdaptivePass VulkanAdaptiveTile::runPass()
             uint64_t{counts_.rays.y} << 32 | uint64_t{counts_.rays.x}};
 }
 
-/// Runs `dispatches` dispatches over the active pixels, then looks at what they left. `begin`: it is the
-/// first round of a pass, and the blocks of the pass before go into the film.
+/// Runs `dispatches` dispatches over the active pixels, then looks at what they left. `begin`: it
+/// is the first round of a pass, and the blocks of the pass before go into the film.
 RoundState VulkanAdaptiveTile::runRound(uint32_t dispatches, bool begin)
 {
     host_.work.runInParts(active_.size, dispatches, [&](uint32_t count, bool isFirst, bool isLast) {
@@ -150,9 +149,7 @@ void VulkanAdaptiveTile::read(std::span<AdaptivePixel> pixels)
     runCommands(host_.context, "read adaptive pixels", [&](VkCommandBuffer commands) {
         recordReadBack(commands, buffer_, buffer_.bytes);
     });
-    std::vector<std::byte> bytes(sizeof(AdaptiveCounts) + pixels.size_bytes());
-    readBuffer(buffer_, bytes);
-    std::ranges::copy(std::span(bytes).subspan(sizeof(AdaptiveCounts)), std::as_writable_bytes(pixels).begin());
+    readBuffer(buffer_, std::as_writable_bytes(pixels), sizeof(AdaptiveCounts));
 }
 
 }  // namespace
@@ -169,7 +166,8 @@ AdaptivePipelines makeAdaptivePipelines(Context& context, ComputePipeline path,
     return {std::move(path), createComputePipeline(context, request), group[0] * group[1]};
 }
 
-std::unique_ptr<AdaptiveTile> makeVulkanAdaptiveTile(const AdaptiveHost& host, const TileRequest& tile,
+std::unique_ptr<AdaptiveTile> makeVulkanAdaptiveTile(const AdaptiveHost& host,
+                                                     const TileRequest& tile,
                                                      const AdaptiveRule& rule)
 {
     return std::make_unique<VulkanAdaptiveTile>(host, tile, rule);

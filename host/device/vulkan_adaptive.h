@@ -8,8 +8,8 @@
 namespace sahl {
 
 struct AdaptivePipelines {
-    ComputePipeline path;  ///< kernels/adaptive_path.comp
-    ComputePipeline pass;  ///< kernels/adaptive_pass.comp
+    ComputePipeline path;    ///< kernels/adaptive_path.comp
+    ComputePipeline pass;    ///< kernels/adaptive_pass.comp
     uint32_t groupSize = 0;  ///< invocations of a workgroup
 };
 
@@ -28,7 +28,8 @@ struct AdaptiveHost {
     uint32_t stackSize = 0;
 };
 
-std::unique_ptr<AdaptiveTile> makeVulkanAdaptiveTile(const AdaptiveHost& host, const TileRequest& tile,
+std::unique_ptr<AdaptiveTile> makeVulkanAdaptiveTile(const AdaptiveHost& host,
+                                                     const TileRequest& tile,
                                                      const AdaptiveRule& rule);
 
 }  // namespace sahl

@@ -34,9 +34,11 @@ class AdaptiveRender {
 public:
     AdaptiveRender(Device& device, const RenderPlan& plan, const AdaptiveRule& rule,
                    const std::function<void(const RenderProgress&)>& report)
-        : device_(device), rule_(rule), report_(report)
+        : device_(device),
+          rule_(rule),
+          report_(report),
+          result_{{Film(plan.width, plan.height), 0, false, 0}, {}}
     {
-        result_.render.film = Film(plan.width, plan.height);
         result_.outcome.pixels = uint64_t{plan.width} * plan.height;
         samplesMissing_ = double(result_.outcome.pixels) * rule.maxSamples;
     }
@@ -57,7 +59,8 @@ private:
     {
         std::vector<TileInWork> tiles;
         for (const TileRequest& request : requests) {
-            tiles.push_back({request, device_.beginAdaptive(request, rule_), request.width * request.height, 0});
+            tiles.push_back({request, device_.beginAdaptive(request, rule_),
+                             request.width * request.height, 0});
         }
         uint32_t passes = 0;
         auto isActive = [](const TileInWork& tile) { return tile.active > 0; };
@@ -87,7 +90,8 @@ private:
     void reportPass(const TileInWork& work, uint32_t activeBefore, const AdaptivePass& pass)
     {
         double left = double(rule_.maxSamples) - double(work.passes) * BLOCK_SIZE;
-        samplesMissing_ -= double(activeBefore) * std::min(left + BLOCK_SIZE, double(rule_.maxSamples));
+        samplesMissing_ -=
+            double(activeBefore) * std::min(left + BLOCK_SIZE, double(rule_.maxSamples));
         samplesMissing_ += double(work.active) * std::max(left, 0.0);
         samplesDone_ += double(pass.samples);
         progress_.fraction = samplesDone_ / (samplesDone_ + samplesMissing_);
@@ -97,7 +101,8 @@ private:
         report_(progress_);
     }
 
-    /// Adds what a tile had after `passes` passes. An interrupted first pass keeps its finished tiles.
+    /// Adds what a tile had after `passes` passes. An interrupted first pass keeps its finished
+    /// tiles.
     void addToFilm(const TileInWork& work, uint32_t passes)
     {
         const TileRequest& request = work.request;
@@ -109,7 +114,8 @@ private:
             result_.outcome.converged += pixel.state == PIXEL_CONVERGED ? 1 : 0;
             result_.outcome.atMaximum += pixel.state == PIXEL_AT_MAXIMUM ? 1 : 0;
         }
-        result_.render.film.add(request.x, request.y, request.width, request.height, pixels, withNewest);
+        result_.render.film.add(request.x, request.y, request.width, request.height, pixels,
+                                withNewest);
     }
 
     double secondsSoFar() const
@@ -120,7 +126,7 @@ private:
     Device& device_;
     AdaptiveRule rule_;
     const std::function<void(const RenderProgress&)>& report_;
-    AdaptiveResult result_ = {};
+    AdaptiveResult result_;
     RenderProgress progress_;
     double samplesDone_ = 0;
     double samplesMissing_ = 0;  // at most
@@ -132,7 +138,8 @@ private:
 AdaptiveResult renderAdaptive(Device& device, const RenderPlan& plan, const AdaptiveRule& rule,
                               const std::function<void(const RenderProgress&)>& report)
 {
-    std::vector<TileRequest> tiles = tilesOf(plan.width, plan.height, plan.tileSize, device.maxTilePixels());
+    std::vector<TileRequest> tiles =
+        tilesOf(plan.width, plan.height, plan.tileSize, device.maxTilePixels());
     return AdaptiveRender(device, plan, rule, report).run(tiles);
 }
 

@@ -17,9 +17,10 @@ struct AdaptiveResult {
     AdaptiveOutcome outcome;
 };
 
-/// Renders plan.width x plan.height pixels by a rule; plan.firstSample is 0, and plan.sampleCount has no
-/// meaning. Tiles go through passes together as far as the device has room for their pixels, then the
-/// next ones do. The device's scene must be set. `report` is called after every pass of a tile.
+/// Renders plan.width x plan.height pixels by a rule; plan.firstSample is 0, and plan.sampleCount
+/// has no meaning. Tiles go through passes together as far as the device has room for their pixels,
+/// then the next ones do. The device's scene must be set. `report` is called after every pass of a
+/// tile.
 AdaptiveResult renderAdaptive(Device& device, const RenderPlan& plan, const AdaptiveRule& rule,
                               const std::function<void(const RenderProgress&)>& report);
 
