@@ -1,5 +1,6 @@
 #include "app/options.h"
 
+#include "app/adaptive.h"
 #include "app/option_kinds.h"
 #include "film/film.h"
 #include "util/error.h"
@@ -54,6 +55,7 @@ void addSceneOptions(CLI::App& command, CommonOptions& options)
     addNumber(command, "--max-bounces", scene.maxBounces, {0, 65535}, "scatterings of a path",
               SCENES)
         ->group("Picture");
+    addAdaptiveOptions(command, scene);
 
     addPath(command, "--probe", scene.probe, "light probe: EXR, HDR or PFM", SCENES)
         ->group("Scene");

@@ -1,6 +1,7 @@
 // sahl render: from a scene file to pictures.
 
 #include "render/render.h"
+#include "app/adaptive.h"
 #include "app/commands.h"
 #include "app/option_kinds.h"
 #include "app/options.h"
@@ -85,6 +86,17 @@ std::vector<fs::path> checkOutputs(const RenderOptions& options)
     return outputs;
 }
 
+bool isAdaptive(const RenderSettings& settings)
+{
+    return settings.adaptive.rule != ADAPTIVE_NONE;
+}
+
+/// Samples that a pixel gets at most.
+uint32_t mostSamples(const RenderSettings& settings)
+{
+    return isAdaptive(settings) ? settings.adaptive.maxSamples : settings.spp;
+}
+
 /// What camera rays meet, as channels of the EXR. Made before the light, so that a picture that gets
 /// interrupted has them too.
 std::vector<ImageChannel> firstHitLayers(const RenderOptions& options, const PreparedScene& prepared,
@@ -92,28 +104,51 @@ std::vector<ImageChannel> firstHitLayers(const RenderOptions& options, const Pre
 {
     if (!options.output.firstHits) return {};
     const RenderSettings& settings = prepared.scene.settings;
-    uint32_t samples = std::min(BLOCK_SIZE, settings.spp);
+    uint32_t samples = std::min(BLOCK_SIZE, mostSamples(settings));
     return firstHitChannels(renderFirstHits(device, settings.width, settings.height, samples), samples,
                             prepared.scene.objectStarts);
 }
 
-ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_t samplesTaken,
+/// Renders all samples, or as many as the scene's rule wants.
+AdaptiveResult renderLight(Device& device, const RenderOptions& options, const RenderSettings& settings)
+{
+    ProgressPrinter printer(options.common.progress, options.common.quiet, mostSamples(settings));
+    auto report = [&](const RenderProgress& progress) { printer.update(progress); };
+    RenderPlan plan = {settings.width, settings.height, 0, settings.spp, options.common.tileSize};
+    AdaptiveResult result = isAdaptive(settings) ? renderAdaptive(device, plan, settings.adaptive, report)
+                                                 : AdaptiveResult{renderPicture(device, plan, report), {}};
+    printer.finish();
+    return result;
+}
+
+AdaptiveReport reportOf(const RenderSettings& settings, const AdaptiveResult& result)
+{
+    return {settings.adaptive, result.outcome, result.render.film.counters.cameraRays};
+}
+
+ImageMetadata metadataOf(const Scene& scene, const AdaptiveResult& result, uint32_t samplesTaken,
                          const Device& device)
 {
     DeviceInfo info = device.info();
-    return {{"sahl.version", SAHL_VERSION},
-            {"sahl.scene", fs::path(scene.name).filename().string()},
-            {"sahl.integrator", scene.settings.integrator == INTEGRATOR_PHONG ? "phong" : "path"},
-            {"sahl.sampler", "independent"},
-            {"sahl.varianceOver", "samples"},
-            {"sahl.seed", std::to_string(scene.settings.seed)},
-            {"sahl.maxBounces", std::to_string(scene.settings.maxBounces)},
-            {"sahl.firstSample", "0"},
-            {"sahl.sampleCount", std::to_string(samplesTaken)},
-            {"sahl.passes", std::to_string(result.passes)},
-            {"sahl.interrupted", result.interrupted ? "yes" : "no"},
-            {"sahl.device", info.name},
-            {"sahl.driver", info.driver}};
+    ImageMetadata metadata = {
+        {"sahl.version", SAHL_VERSION},
+        {"sahl.scene", fs::path(scene.name).filename().string()},
+        {"sahl.integrator", scene.settings.integrator == INTEGRATOR_PHONG ? "phong" : "path"},
+        {"sahl.sampler", "independent"},
+        {"sahl.varianceOver", "samples"},
+        {"sahl.seed", std::to_string(scene.settings.seed)},
+        {"sahl.maxBounces", std::to_string(scene.settings.maxBounces)},
+        {"sahl.firstSample", "0"},
+        {"sahl.sampleCount", std::to_string(samplesTaken)},
+        {"sahl.passes", std::to_string(result.render.passes)},
+        {"sahl.interrupted", result.render.interrupted ? "yes" : "no"},
+        {"sahl.device", info.name},
+        {"sahl.driver", info.driver}};
+    if (isAdaptive(scene.settings)) {
+        ImageMetadata added = adaptiveMetadata(reportOf(scene.settings, result));
+        metadata.merge(added);
+    }
+    return metadata;
 }
 
 void printSummary(const RenderOptions& options, const PreparedScene& prepared,
@@ -142,8 +177,8 @@ void sayInterrupted(const RenderOptions& options, const RenderSettings& settings
     } else if (result.passes == 0) {
         say("sahl: interrupted in the first pass; saving its finished tiles, the rest is black\n");
     } else {
-        say("sahl: interrupted; saving {} of {} samples per pixel\n", result.passes * BLOCK_SIZE,
-            settings.spp);
+        say("sahl: interrupted; saving {}{} of {} samples per pixel\n", isAdaptive(settings) ? "up to " : "",
+            result.passes * BLOCK_SIZE, mostSamples(settings));
     }
 }
 
@@ -180,11 +215,8 @@ int runRender(RenderOptions& options)
 
     const RenderSettings& settings = prepared.scene.settings;
     std::vector<ImageChannel> channels = firstHitLayers(options, prepared, *device);
-    ProgressPrinter printer(options.common.progress, options.common.quiet, settings.spp);
-    RenderPlan plan = {settings.width, settings.height, 0, settings.spp, options.common.tileSize};
-    RenderResult result = renderPicture(
-        *device, plan, [&](const RenderProgress& progress) { printer.update(progress); });
-    printer.finish();
+    AdaptiveResult light = renderLight(*device, options, settings);
+    const RenderResult& result = light.render;
     seconds.render = watch.lap();
 
     if (result.interrupted) sayInterrupted(options, settings, result);
@@ -192,17 +224,21 @@ int runRender(RenderOptions& options)
 
     std::vector<ImageChannel> statistics = statisticsChannels(result.film);
     channels.insert(channels.end(), statistics.begin(), statistics.end());
-    uint32_t samplesTaken = std::min(settings.spp, result.passes * BLOCK_SIZE);
+    uint32_t samplesTaken = std::min(mostSamples(settings), result.passes * BLOCK_SIZE);
     writeOutputs(result.film, options.output,
-                 metadataOf(prepared.scene, result, samplesTaken, *device), channels);
+                 metadataOf(prepared.scene, light, samplesTaken, *device), channels);
     seconds.write = watch.lap();
     seconds.total = watch.total();
     if (!options.statsPath.empty()) {
         auto json = statisticsJson(prepared, result.film, *device, seconds);
+        if (isAdaptive(settings)) json["adaptive"] = adaptiveJson(reportOf(settings, light));
         writeFileAtomically(options.statsPath, json.dump(2) + "\n");
     }
 
     printSummary(options, prepared, result);
+    if (isAdaptive(settings) && !options.common.quiet) {
+        say("{}\n", adaptiveSummary(reportOf(settings, light)));
+    }
     if (options.common.verbose) printDetails(prepared, *device);
     if (!options.common.quiet) {
         for (const fs::path& path : options.output.paths) answer("{}\n", path.string());

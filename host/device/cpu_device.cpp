@@ -3,11 +3,11 @@
 #include "device/device.h"
 #include "reference/render_tile.h"
 #include "util/error.h"
-#include "util/memory.h"
 #include "util/parallel.h"
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <numeric>
 
 namespace sahl {
@@ -110,7 +110,7 @@ public:
 
     uint32_t maxTilePixels() const override { return 1u << 16; }
 
-    uint64_t maxAdaptivePixels() const override { return availableMemory() / 2 / sizeof(AdaptivePixel); }
+    uint64_t maxAdaptivePixels() const override { return std::numeric_limits<uint64_t>::max(); }
 
     DeviceStatistics statistics() const override { return statistics_; }
 

@@ -1,7 +1,7 @@
 #include "render/render_adaptive.h"
 
-#include "film/film_error.h"
 #include "util/interrupt.h"
+#include "util/memory.h"
 
 #include <algorithm>
 #include <chrono>
@@ -45,8 +45,11 @@ public:
 
     AdaptiveResult run(std::span<const TileRequest> tiles)
     {
+        // Software devices take the host's memory, others a copy of theirs there.
+        uint64_t maxPixels =
+            std::min(device_.maxAdaptivePixels(), availableMemory() / 2 / sizeof(AdaptivePixel));
         for (size_t first = 0; first < tiles.size() && !result_.render.interrupted;) {
-            size_t count = batchSize(tiles, first, device_.maxAdaptivePixels());
+            size_t count = batchSize(tiles, first, maxPixels);
             renderTogether(tiles.subspan(first, count));
             first += count;
         }

@@ -1,6 +1,7 @@
 #include "scene/scene.h"
 
 #include "bvh/box.h"
+#include "scene/adaptive.h"
 #include "scene/camera.h"
 #include "scene/primitives.h"
 #include "scene/probe.h"
@@ -79,6 +80,7 @@ void applyOptions(RenderSettings& settings, const SceneOptions& options)
     settings.spp = options.spp.value_or(settings.spp);
     settings.maxBounces = options.maxBounces.value_or(settings.maxBounces);
     settings.seed = options.seed.value_or(settings.seed);
+    applyAdaptiveOptions(settings, options);
 }
 
 void applyProbeOption(Scene& scene, const SceneOptions& options)

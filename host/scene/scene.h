@@ -1,6 +1,7 @@
 // A scene as the rest of the program sees it: plain arrays of the structs that the device reads.
 #pragma once
 
+#include "shared/adaptive_types.h"
 #include "shared/scene_types.h"
 #include "util/files.h"
 
@@ -33,6 +34,7 @@ struct RenderSettings {
     uint32_t seed = 0;
     uint32_t integrator = INTEGRATOR_PATH;
     bool jitter = true;  ///< samples spread over the pixel rather than all through its centre
+    AdaptiveRule adaptive = {ADAPTIVE_NONE, 1e-4f, 20, 1000};  ///< with a rule, `spp` has no meaning
 };
 
 /// Everything a picture is made of, before the tree is built. Primitives are in the order in which
@@ -82,6 +84,8 @@ Camera makeCamera(const CameraDescription& description, uint32_t width, uint32_t
 /// What the command line adds to or changes in a scene.
 struct SceneOptions {
     std::optional<uint32_t> width, height, spp, maxBounces, seed;
+    std::optional<uint32_t> adaptive, minSpp, maxSpp;  ///< rule (one of ADAPTIVE_*) and bounds
+    std::optional<float> epsilon;                      ///< of ADAPTIVE_REPORT
     std::optional<fs::path> probe;            ///< replaces the environment
     std::optional<std::string> probeMapping;  ///< "latlong" or "angular"
     std::optional<std::string> probeFilter;   ///< "nearest" or "bilinear"
