@@ -109,7 +109,8 @@ float exp2Of(float y)
 }
 
 /// x to the power of n, for x in [0, 1] and n >= 0; x^0 is 1, also for x = 0. Relative error below
-/// 3e-7 (1 + |ln x^n|), which is 2.1e-5 at most; what is below 2^-99 (1.6e-30) becomes 0.
+/// 3e-7 (1 + |ln x^n|), which is 2.1e-5 at most; what is below 2^-99 (1.6e-30) becomes 0. An x of at
+/// most 1e-30 counts as 0.
 float power(float x, float n)
 {
     if (!(n > 0.0f)) return 1.0f;

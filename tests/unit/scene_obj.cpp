@@ -208,7 +208,7 @@ TEST(Mtl, diffuseBecomesBaseColorAndEmissionIsKept)
     EXPECT_EQ(scene.materials[1].baseColor, vec3(0.7f));
     EXPECT_EQ(scene.materials[2].baseColor, vec3(1, 0, 0.5f));
     EXPECT_EQ(scene.materialNames[2], "hot");
-    EXPECT_CONTAINS(warning, "1 colours outside [0,1] (Ka, Kd, Ks) or below 0 (Ke) were clamped");
+    EXPECT_CONTAINS(warning, "1 colours outside [0,1] (Ka, Kd, Ks) or below 0 (Ke)");
 }
 
 TEST(Mtl, missingFileAndUnusedKeysAreToldAndBecomeGrey)

@@ -40,15 +40,15 @@ TEST(PhongKeys, mistakesInTermsAreNamedWithTheirPlace)
     };
     EXPECT_EQ(
         errorOf("[\"ambient\", \"difuse\"]"),
-        "scene.json:1:41: an entry of \"terms\" of the integrator is \"difuse\"; did you mean "
+        "scene.json:1:40: an entry of \"terms\" of the integrator is \"difuse\"; did you mean "
         "\"diffuse\"?");
     EXPECT_EQ(errorOf("[\"ambient\", \"ambient\"]"),
-              "scene.json:1:41: \"terms\" of the integrator has \"ambient\" twice");
+              "scene.json:1:40: \"terms\" of the integrator has \"ambient\" twice");
     EXPECT_EQ(errorOf("[]"),
-              "scene.json:1:29: \"terms\" of the integrator is empty; known: \"ambient\", "
+              "scene.json:1:28: \"terms\" of the integrator is empty; known: \"ambient\", "
               "\"diffuse\", \"specular\"");
     EXPECT_CONTAINS(errorOf("\"ambient\""), "\"terms\" of the integrator must be an array");
-    EXPECT_CONTAINS(errorOf("[1]"), "must be a string");
+    EXPECT_CONTAINS(errorOf("[1]"), "must be a text, found a number");
 }
 
 TEST(PhongOptions, overrideTheScene)
