@@ -6,6 +6,7 @@
 #include "app/options.h"
 #include "app/outputs.h"
 #include "app/progress.h"
+#include "app/shading_options.h"
 #include "app/stats.h"
 #include "film/layers.h"
 #include "render/prepare.h"
@@ -101,19 +102,21 @@ ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_
                          const Device& device)
 {
     DeviceInfo info = device.info();
-    return {{"sahl.version", SAHL_VERSION},
-            {"sahl.scene", fs::path(scene.name).filename().string()},
-            {"sahl.integrator", scene.settings.integrator == INTEGRATOR_PHONG ? "phong" : "path"},
-            {"sahl.sampler", "independent"},
-            {"sahl.varianceOver", "samples"},
-            {"sahl.seed", std::to_string(scene.settings.seed)},
-            {"sahl.maxBounces", std::to_string(scene.settings.maxBounces)},
-            {"sahl.firstSample", "0"},
-            {"sahl.sampleCount", std::to_string(samplesTaken)},
-            {"sahl.passes", std::to_string(result.passes)},
-            {"sahl.interrupted", result.interrupted ? "yes" : "no"},
-            {"sahl.device", info.name},
-            {"sahl.driver", info.driver}};
+    ImageMetadata metadata = describeShading(scene.settings);
+    metadata.merge(ImageMetadata{{"sahl.version", SAHL_VERSION},
+                                 {"sahl.scene", fs::path(scene.name).filename().string()},
+                                 {"sahl.integrator", integratorName(scene.settings)},
+                                 {"sahl.sampler", "independent"},
+                                 {"sahl.varianceOver", "samples"},
+                                 {"sahl.seed", std::to_string(scene.settings.seed)},
+                                 {"sahl.maxBounces", std::to_string(scene.settings.maxBounces)},
+                                 {"sahl.firstSample", "0"},
+                                 {"sahl.sampleCount", std::to_string(samplesTaken)},
+                                 {"sahl.passes", std::to_string(result.passes)},
+                                 {"sahl.interrupted", result.interrupted ? "yes" : "no"},
+                                 {"sahl.device", info.name},
+                                 {"sahl.driver", info.driver}});
+    return metadata;
 }
 
 void printSummary(const RenderOptions& options, const PreparedScene& prepared,
