@@ -12,6 +12,7 @@
 #include "render/prepare.h"
 #include "sahl_version.h"
 #include "util/error.h"
+#include "util/gzip.h"
 #include "util/interrupt.h"
 #include "util/messages.h"
 
@@ -66,7 +67,7 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
 void chooseDefaultOutputs(RenderOptions& options)
 {
     if (!options.output.paths.empty()) return;
-    fs::path stem = fs::path(options.common.scenePath).stem();
+    fs::path stem = withoutGz(options.common.scenePath).stem();
     if (stem.empty()) throw usageError("name an output with -o");
     options.output.paths = {stem.string() + ".exr", stem.string() + ".png"};
 }
@@ -220,7 +221,7 @@ Command addRenderCommand(CLI::App& app)
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command =
         app.add_subcommand("render", "render a scene into pictures")->group("Commands");
-    command->add_option("scene", options->common.scenePath, "scene (.json) or mesh (.obj)")
+    command->add_option("scene", options->common.scenePath, "scene (.json) or mesh (.obj, .ply)")
         ->required()
         ->type_name("SCENE");
     addOutputOptions(*command, *options);

@@ -89,7 +89,7 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error)
         return "a command is missing; choose " + enumeration(commandsOf(app));
     }
     if (kind == CLI::ExitCodes::RequiredError) {
-        return fmt::format("'sahl {}' needs a scene: a .json or .obj file", command.get_name());
+        return fmt::format("'sahl {}' needs a scene: a .json, .obj or .ply file", command.get_name());
     }
     const CLI::Option* option = optionNamedIn(command, error.what());
     if (option && option->get_items_expected_max() == 0)
