@@ -4,6 +4,7 @@
 #include "util/files.h"
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,7 @@ struct ImageChannel {
 /// Encoders: the complete file in memory, to be written by writeFileAtomically.
 /// EXR: float32, ZIP; `channels` beside R, G and B.
 std::vector<uint8_t> encodeExr(const Image& image, const ImageMetadata& metadata,
-                               const std::vector<ImageChannel>& channels = {});
+                               std::span<const ImageChannel> channels = {});
 std::vector<uint8_t> encodePng(const Image8& image, const ImageMetadata& metadata);
 std::vector<uint8_t> encodePfm(const Image& image);
 
