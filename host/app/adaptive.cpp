@@ -12,6 +12,12 @@ double ratio(double part, double whole)
     return whole > 0 ? part / whole : 0;
 }
 
+/// A float as people wrote it: 0.0001 rather than 9.9999997e-05.
+std::string shortest(float number)
+{
+    return fmt::format("{}", number);
+}
+
 }  // namespace
 
 void addAdaptiveOptions(CLI::App& command, SceneOptions& scene)
@@ -76,7 +82,7 @@ ImageMetadata adaptiveMetadata(const AdaptiveReport& report)
     const AdaptiveRule& rule = report.rule;
     return {{"sahl.adaptive", adaptiveRuleName(rule.rule)},
             {"sahl.biased", "yes"},
-            {"sahl.epsilon", fmt::format("{}", rule.epsilon)},
+            {"sahl.epsilon", shortest(rule.epsilon)},
             {"sahl.minSamples", std::to_string(rule.minSamples)},
             {"sahl.maxSamples", std::to_string(rule.maxSamples)},
             {"sahl.meanSamples", fmt::format("{:.6g}", report.meanSamples())},
@@ -89,7 +95,7 @@ nlohmann::ordered_json adaptiveJson(const AdaptiveReport& report)
     const AdaptiveRule& rule = report.rule;
     return {{"rule", adaptiveRuleName(rule.rule)},
             {"biased", true},
-            {"epsilon", rule.epsilon},
+            {"epsilon", std::stod(shortest(rule.epsilon))},
             {"minSamples", rule.minSamples},
             {"maxSamples", rule.maxSamples},
             {"meanSamples", report.meanSamples()},

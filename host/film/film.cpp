@@ -4,6 +4,7 @@
 #include "util/error.h"
 
 #include <cassert>
+#include <limits>
 
 namespace sahl {
 
@@ -16,6 +17,22 @@ void Counters::add(const Counters& other)
     primitiveTests += other.primitiveTests;
     bounces += other.bounces;
     badSamples += other.badSamples;
+}
+
+namespace {
+
+/// Stays at the largest number rather than to wrap around, so that the order does not matter.
+uint32_t saturatingSum(uint32_t a, uint32_t b)
+{
+    return b > std::numeric_limits<uint32_t>::max() - a ? std::numeric_limits<uint32_t>::max() : a + b;
+}
+
+}  // namespace
+
+void PixelWork::add(const PixelWork& other)
+{
+    boxTests = saturatingSum(boxTests, other.boxTests);
+    primitiveTests = saturatingSum(primitiveTests, other.primitiveTests);
 }
 
 namespace {
@@ -50,6 +67,17 @@ uint64_t countOf(const uvec2& words)
     return uint64_t{words.y} << 32 | words.x;
 }
 
+/// Saturates as PixelWork does.
+uint32_t smallCount(const uvec2& words)
+{
+    return words.y != 0 ? std::numeric_limits<uint32_t>::max() : words.x;
+}
+
+PixelWork workOf(const FilmPixel& pixel)
+{
+    return {smallCount(pixel.boxTests), smallCount(pixel.primitiveTests)};
+}
+
 void addSums(HalfPixel& pixel, const FilmSums& sums, uint32_t samples)
 {
     pixel.sum[0].add(fixedOf(sums.red));
@@ -79,6 +107,7 @@ Film::Film(uint32_t filmWidth, uint32_t filmHeight) : width(filmWidth), height(f
     const size_t pixels = size_t{width} * height;
     for (std::vector<HalfPixel>& pixelsOfHalf : half) pixelsOfHalf.resize(pixels);
     digest.resize(pixels);
+    work.resize(pixels);
 }
 
 void Film::add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,
@@ -95,6 +124,7 @@ void Film::add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,
             const size_t pixel = size_t{y + row} * width + x + column;
             addBlock(target[pixel], block);
             digest[pixel] += block.digest;
+            work[pixel].add({block.boxTests, block.primitiveTests});
             counters.add(countersOf(block));
         }
     }
@@ -112,6 +142,7 @@ void Film::add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,
             addSums(half[0][pixel], from.film.sumsA, from.film.samplesA);
             addSums(half[1][pixel], from.film.sumsB, from.film.samplesB);
             digest[pixel] += from.film.digest;
+            work[pixel].add(workOf(from.film));
             counters.add(countersOf(from.film));
             if (!withNewestPass || from.block.samplesDone == 0) continue;
             const uint32_t firstSample = from.film.samplesA + from.film.samplesB;
@@ -136,6 +167,7 @@ void Film::merge(const Film& other)
         }
     }
     for (size_t i = 0; i < digest.size(); i++) digest[i] += other.digest[i];
+    for (size_t i = 0; i < work.size(); i++) work[i].add(other.work[i]);
     counters.add(other.counters);
 }
 
