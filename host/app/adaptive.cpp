@@ -20,6 +20,24 @@ std::string shortest(float number)
 
 }  // namespace
 
+bool isAdaptive(const RenderSettings& settings)
+{
+    return settings.adaptive.rule != ADAPTIVE_NONE;
+}
+
+uint32_t mostSamples(const RenderSettings& settings)
+{
+    return isAdaptive(settings) ? settings.adaptive.maxSamples : settings.spp;
+}
+
+std::string samplesText(const RenderSettings& settings)
+{
+    if (!isAdaptive(settings)) return fmt::format("{} spp", settings.spp);
+    const AdaptiveRule& rule = settings.adaptive;
+    return fmt::format("{} to {} spp by the rule {}", rule.minSamples, rule.maxSamples,
+                       adaptiveRuleName(rule.rule));
+}
+
 void addAdaptiveOptions(CLI::App& command, SceneOptions& scene)
 {
     auto setRule = [&scene](const std::string& text) {

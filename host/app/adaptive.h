@@ -16,6 +16,14 @@ namespace sahl {
 /// Adds --adaptive and the options that go with it, in the group "Picture".
 void addAdaptiveOptions(CLI::App& command, SceneOptions& scene);
 
+bool isAdaptive(const RenderSettings& settings);
+
+/// Samples that a pixel gets at most.
+uint32_t mostSamples(const RenderSettings& settings);
+
+/// "64 spp", "20 to 1000 spp by the rule report"
+std::string samplesText(const RenderSettings& settings);
+
 /// What there is to say about a picture made by a rule.
 struct AdaptiveReport {
     AdaptiveRule rule;

@@ -88,17 +88,6 @@ std::vector<fs::path> checkOutputs(const RenderOptions& options)
     return outputs;
 }
 
-bool isAdaptive(const RenderSettings& settings)
-{
-    return settings.adaptive.rule != ADAPTIVE_NONE;
-}
-
-/// Samples that a pixel gets at most.
-uint32_t mostSamples(const RenderSettings& settings)
-{
-    return isAdaptive(settings) ? settings.adaptive.maxSamples : settings.spp;
-}
-
 /// What camera rays meet, as channels of the EXR. Made before the light, so that a picture that gets
 /// interrupted has them too.
 std::vector<ImageChannel> firstHitLayers(const RenderOptions& options, const PreparedScene& prepared,

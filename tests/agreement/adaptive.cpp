@@ -1,6 +1,7 @@
 // Adaptive sampling: the counts of samples and the film are a function of the scene and the rule
 // alone.
 
+#include "render/verify.h"
 #include "shared/bindings.h"
 #include "support/adaptive_scenes.h"
 #include "support/device_test.h"
@@ -120,7 +121,7 @@ TEST_F(Adaptive, hasTheSameBitsWhenTheDriverCutsLoops)
 }
 
 /// A device that has room for few pixels under adaptive sampling.
-struct SmallDevice final : Device {
+struct SmallDevice : Device {
     std::unique_ptr<Device> inner;
     DeviceInfo info() const override { return inner->info(); }
     void setScene(const DeviceScene& scene) override { inner->setScene(scene); }
@@ -147,6 +148,50 @@ TEST_F(Adaptive, tilesThatDoNotFitTogetherAreRenderedOneAfterTheOther)
     SmallDevice device;
     device.inner = openFirstDevice();
     expectSame(device, 20);
+}
+
+TEST_F(Adaptive, verifyComparesCountsAndFindsTheFirstDifferingSample)
+{
+    auto cpu = makeCpuDevice({});
+    auto device = openFirstDevice();
+    auto verify = [&](Device& tested) {
+        return verifyAdaptive(tested, *cpu, scene().deviceScene(), RULE, 16, [](double) {});
+    };
+    const VerifyResult same = verify(*device);
+    EXPECT_TRUE(same.equal());
+    EXPECT_TRUE(same.deviceFilm == reference().render.film);
+
+    // Another rule on one side: all samples are the same, and some pixels get more of them.
+    struct Patient final : SmallDevice {
+        std::unique_ptr<AdaptiveTile> beginAdaptive(const TileRequest& tile,
+                                                    const AdaptiveRule& rule) override
+        {
+            AdaptiveRule patient = rule;
+            patient.epsilon /= 2;
+            return inner->beginAdaptive(tile, patient);
+        }
+    } patient;
+    patient.inner = makeCpuDevice({});
+    const VerifyResult later = verify(patient);
+    EXPECT_FALSE(later.equal());
+    EXPECT_GT(later.differingPixels, 50u);
+    ASSERT_TRUE(later.first.has_value());
+    EXPECT_EQ(later.first->stage, "decision to stop");
+
+    // Another scene on one side: paths differ from the first sample on.
+    struct Elsewhere final : SmallDevice {
+        void setScene(const DeviceScene& scene) override
+        {
+            DeviceScene other = scene;
+            other.frame.seed++;
+            inner->setScene(other);
+        }
+    } elsewhere;
+    elsewhere.inner = makeCpuDevice({});
+    const VerifyResult other = verify(elsewhere);
+    ASSERT_TRUE(other.first.has_value());
+    EXPECT_EQ(other.first->sample, 0u);
+    EXPECT_NE(other.first->stage, "decision to stop");
 }
 
 TEST_F(Adaptive, memoryOfItsOwn_goesThroughStagingBuffers)
