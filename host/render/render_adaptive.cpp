@@ -67,7 +67,10 @@ private:
         }
         uint32_t passes = 0;
         auto isActive = [](const TileInWork& tile) { return tile.active > 0; };
-        while (std::ranges::any_of(tiles, isActive) && runPass(tiles)) passes++;
+        while (std::ranges::any_of(tiles, isActive) && runPass(tiles)) {
+            passes++;
+            progress_.samplesDone = std::min(passes * BLOCK_SIZE, rule_.maxSamples);
+        }
         for (const TileInWork& tile : tiles) addToFilm(tile, passes);
         result_.render.passes = std::max(result_.render.passes, passes);
     }
@@ -98,7 +101,6 @@ private:
         samplesMissing_ += double(work.active) * std::max(left, 0.0);
         samplesDone_ += double(pass.samples);
         progress_.fraction = samplesDone_ / (samplesDone_ + samplesMissing_);
-        progress_.samplesDone = std::min(work.passes * BLOCK_SIZE, rule_.maxSamples);
         progress_.rays += pass.rays;
         progress_.seconds = secondsSoFar();
         report_(progress_);

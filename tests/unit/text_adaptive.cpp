@@ -164,10 +164,13 @@ TEST(ReportRule, losesRareBrightSamples)
     EXPECT_LT(biased.standardError, 0.002);
     EXPECT_LT(biased.mean, 0.4) << "more than 60 % of the light is lost";
     RecordProperty("mean", std::to_string(biased.mean));
+    RecordProperty("error", std::to_string(biased.standardError));
 
     // The same pixels with the same number of samples each lose nothing.
     Estimate plain = rareBrightSamples(report(1e-4f, 100, 100), P, PIXELS / 4);
     EXPECT_NEAR(plain.mean, 1, 4 * plain.standardError);
+    RecordProperty("plainMean", std::to_string(plain.mean));
+    RecordProperty("plainError", std::to_string(plain.standardError));
 }
 
 TEST(FilmSums, wordsOf32BitsEqualTheHostsFixedPoint)
