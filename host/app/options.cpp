@@ -1,6 +1,7 @@
 #include "app/options.h"
 
 #include "app/option_kinds.h"
+#include "app/shading_options.h"
 #include "film/film.h"
 #include "util/error.h"
 #include "util/memory.h"
@@ -54,6 +55,8 @@ void addSceneOptions(CLI::App& command, CommonOptions& options)
     addNumber(command, "--max-bounces", scene.maxBounces, {0, 65535}, "scatterings of a path",
               SCENES)
         ->group("Picture");
+
+    addShadingOptions(command, scene);
 
     addPath(command, "--probe", scene.probe, "light probe: EXR, HDR or PFM", SCENES)
         ->group("Scene");

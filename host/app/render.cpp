@@ -7,11 +7,13 @@
 #include "app/options.h"
 #include "app/outputs.h"
 #include "app/progress.h"
+#include "app/shading_options.h"
 #include "app/stats.h"
 #include "film/layers.h"
 #include "render/prepare.h"
 #include "sahl_version.h"
 #include "util/error.h"
+#include "util/gzip.h"
 #include "util/interrupt.h"
 #include "util/messages.h"
 
@@ -55,7 +57,7 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
 void chooseDefaultOutputs(RenderOptions& options)
 {
     if (!options.output.paths.empty()) return;
-    fs::path stem = fs::path(options.common.scenePath).stem();
+    fs::path stem = withoutGz(options.common.scenePath).stem();
     if (stem.empty()) throw usageError("name an output with -o");
     options.output.paths = {stem.string() + ".exr", stem.string() + ".png"};
 }
@@ -101,19 +103,21 @@ ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_
                          const Device& device)
 {
     DeviceInfo info = device.info();
-    return {{"sahl.version", SAHL_VERSION},
-            {"sahl.scene", fs::path(scene.name).filename().string()},
-            {"sahl.integrator", scene.settings.integrator == INTEGRATOR_PHONG ? "phong" : "path"},
-            {"sahl.sampler", "independent"},
-            {"sahl.varianceOver", "samples"},
-            {"sahl.seed", std::to_string(scene.settings.seed)},
-            {"sahl.maxBounces", std::to_string(scene.settings.maxBounces)},
-            {"sahl.firstSample", "0"},
-            {"sahl.sampleCount", std::to_string(samplesTaken)},
-            {"sahl.passes", std::to_string(result.passes)},
-            {"sahl.interrupted", result.interrupted ? "yes" : "no"},
-            {"sahl.device", info.name},
-            {"sahl.driver", info.driver}};
+    ImageMetadata metadata = describeShading(scene.settings);
+    metadata.merge(ImageMetadata{{"sahl.version", SAHL_VERSION},
+                                 {"sahl.scene", fs::path(scene.name).filename().string()},
+                                 {"sahl.integrator", integratorName(scene.settings)},
+                                 {"sahl.sampler", "independent"},
+                                 {"sahl.varianceOver", "samples"},
+                                 {"sahl.seed", std::to_string(scene.settings.seed)},
+                                 {"sahl.maxBounces", std::to_string(scene.settings.maxBounces)},
+                                 {"sahl.firstSample", "0"},
+                                 {"sahl.sampleCount", std::to_string(samplesTaken)},
+                                 {"sahl.passes", std::to_string(result.passes)},
+                                 {"sahl.interrupted", result.interrupted ? "yes" : "no"},
+                                 {"sahl.device", info.name},
+                                 {"sahl.driver", info.driver}});
+    return metadata;
 }
 
 void printSummary(const RenderOptions& options, const PreparedScene& prepared,
@@ -234,7 +238,7 @@ Command addRenderCommand(CLI::App& app)
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command =
         app.add_subcommand("render", "render a scene into pictures")->group("Commands");
-    command->add_option("scene", options->common.scenePath, "scene (.json) or mesh (.obj)")
+    command->add_option("scene", options->common.scenePath, "scene (.json) or mesh (.obj, .ply)")
         ->required()
         ->type_name("SCENE");
     addOutputOptions(*command, *options);

@@ -90,7 +90,7 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error)
     }
     if (kind == CLI::ExitCodes::RequiredError) {
         const char* input = command.get_name() == "tonemap" ? "a picture: an .exr, .hdr or .pfm file"
-                                                            : "a scene: a .json or .obj file";
+                                                            : "a scene: a .json, .obj or .ply file";
         return fmt::format("'sahl {}' needs {}", command.get_name(), input);
     }
     const CLI::Option* option = optionNamedIn(command, error.what());

@@ -27,7 +27,7 @@ struct Image8 {
 /// Text that goes along with a picture: EXR attributes, PNG text chunks.
 using ImageMetadata = std::map<std::string, std::string>;
 
-/// Reads EXR, PFM or HDR, told apart by their first bytes. At most 2^28 pixels and 32768 a side.
+/// Reads EXR, PFM or HDR, told apart by their first bytes; also packed with gzip. At most 2^28 pixels and 32768 a side.
 /// Throws badInput naming the file and what is wrong with it: truncated, wrong magic, zero size.
 /// Non-finite values are kept: what they mean is the caller's matter.
 Image readImage(const fs::path& path);
