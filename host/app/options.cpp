@@ -154,9 +154,10 @@ std::unique_ptr<Device> openDeviceFor(const CommonOptions& options)
 
 void requireFilmMemory(const RenderSettings& settings, unsigned films)
 {
-    // Sums of both halves, digests, the blocks of a pass; and at last two pictures and their files.
-    constexpr uint64_t FILM = 2 * sizeof(HalfPixel) + sizeof(uint32_t) + sizeof(PixelBlock);
-    constexpr uint64_t PICTURES = 4 * 3 * sizeof(float);
+    // The film, the blocks of a pass; and at last two pictures, the four layers of
+    // statistics, and their files.
+    constexpr uint64_t FILM = filmBytes(1, 1) + sizeof(PixelBlock);
+    constexpr uint64_t PICTURES = (4 * 3 + 4) * sizeof(float);
     uint64_t pixels = uint64_t{settings.width} * settings.height;
     requireMemory(pixels * (FILM * films + PICTURES),
                   fmt::format("a picture of {} x {} pixels", settings.width, settings.height),

@@ -2,6 +2,7 @@
 
 #include "bvh/box.h"
 #include "scene/camera.h"
+#include "scene/mesh_file.h"
 #include "scene/primitives.h"
 #include "scene/phong.h"
 #include "scene/probe.h"
@@ -14,28 +15,19 @@ namespace sahl {
 
 namespace {
 
-std::string lowerCaseExtension(const fs::path& path)
-{
-    std::string extension = path.extension().string();
-    for (char& c : extension) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return extension;
-}
-
 void useStudioProbe(Scene& scene, const SceneOptions& options)
 {
     uint filter = probeFilter(options.probeFilter.value_or("bilinear"));
     setProbe(scene, makeStudioProbe(STUDIO_WIDTH, STUDIO_HEIGHT), PROBE_LATLONG, filter, "studio");
 }
 
-Scene loadObjScene(const fs::path& path, const SceneOptions& options)
+Scene loadMeshScene(const fs::path& path, const SceneOptions& options)
 {
     Scene scene;
     scene.name = path.string();
     applyOptions(scene.settings, options);
     checkPictureSize(scene.settings, scene.name);
-    ObjFile obj = readObj(path, {folderOf(path), options.allowedPaths});
+    ObjFile obj = readMeshFile(path, {folderOf(path), options.allowedPaths});
     appendObj(scene, obj, {}, options.smoothNormals, scene.name);
     if (options.probe)
         applyProbeOption(scene, options);
@@ -107,13 +99,13 @@ void checkPictureSize(const RenderSettings& settings, const std::string& name)
 
 Scene loadScene(const fs::path& path, const SceneOptions& options)
 {
-    std::string extension = lowerCaseExtension(path);
-    if (extension != ".json" && extension != ".obj") {
+    std::string extension = meshExtension(path);
+    if (extension != ".json" && !isMeshFile(path)) {
         requireRegularFile(path);
-        throw badInput("{}: \"{}\" files are not read; use .json (see scenes/README.md) or .obj",
+        throw badInput("{}: \"{}\" files are not read; use .json (see scenes/README.md), .obj or .ply",
                        path.string(), extension);
     }
-    Scene scene = extension == ".obj" ? loadObjScene(path, options) : loadJsonScene(path, options);
+    Scene scene = isMeshFile(path) ? loadMeshScene(path, options) : loadJsonScene(path, options);
     warnAboutOddScene(scene);
     return scene;
 }

@@ -1,6 +1,7 @@
 // Scene files: JSON, described by scenes/schema.json and scenes/README.md.
 #include "scene/camera.h"
 #include "scene/scene_reading.h"
+#include "util/gzip.h"
 
 namespace sahl {
 
@@ -37,7 +38,7 @@ void checkTopLevelText(const JsonObject& file)
 
 Scene loadJsonScene(const fs::path& path, const SceneOptions& options)
 {
-    JsonDocument document = parseJson(path.string(), readTextFile(path, MAX_JSON_BYTES));
+    JsonDocument document = parseJson(path.string(), readUnpackedText(path, MAX_JSON_BYTES));
     Scene scene;
     scene.name = path.string();
     SceneReading reading{

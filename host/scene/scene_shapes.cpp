@@ -1,5 +1,6 @@
 // The shapes of scene files: meshes from files, triangles written out, procedural ones, and
 // spheres.
+#include "scene/mesh_file.h"
 #include "scene/numbers.h"
 #include "scene/primitives.h"
 #include "scene/scene_reading.h"
@@ -162,7 +163,7 @@ void readMeshFile(SceneReading& reading, const JsonObject& shape)
     std::string where = reading.document.where(fileNode.offset);
     fs::path path = resolvePath(reading.policy, reading.folder, shape.string("file", ""), where);
     auto& obj = reading.objFiles[path];
-    if (!obj) obj = std::make_shared<ObjFile>(readObj(path, reading.policy));
+    if (!obj) obj = std::make_shared<ObjFile>(readMeshFile(path, reading.policy));
     bool smooth = shape.boolean("smoothNormals", false) || reading.options.smoothNormals;
     Transform transform = readTransform(shape);
     if (!shape.has("material")) {
