@@ -4,6 +4,7 @@
 #include "film/film.h"
 #include "util/files.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct OutputOptions {
     ToneMap toneMap = ToneMap::percentile;
     bool firstHits = false;  ///< albedo, normals, depth and so on as layers of EXR files
     float exposure = 0;  ///< [stops]
+    std::optional<ImagePlace> place;  ///< of a window of the picture, told by EXR files
 };
 
 /// Refuses pictures that cannot be written, before anything is read or rendered: unknown extensions
@@ -33,5 +35,9 @@ void writeImage(const Image& image, const OutputOptions& options, const fs::path
 /// them holds is then put into the folder for temporary files, and the failure's text says so.
 void writeOutputs(const Film& film, const OutputOptions& options, const ImageMetadata& metadata,
                   const std::vector<ImageChannel>& channels);
+
+/// The same for a picture that is not finished: nothing is rescued.
+void writePartialOutputs(const Film& film, const OutputOptions& options,
+                         const ImageMetadata& metadata, const std::vector<ImageChannel>& channels);
 
 }  // namespace sahl

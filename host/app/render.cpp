@@ -2,9 +2,11 @@
 
 #include "render/render.h"
 #include "app/commands.h"
+#include "app/crop.h"
 #include "app/option_kinds.h"
 #include "app/options.h"
 #include "app/outputs.h"
+#include "app/partial.h"
 #include "app/progress.h"
 #include "app/stats.h"
 #include "film/layers.h"
@@ -26,6 +28,8 @@ struct RenderOptions {
     CommonOptions common;
     OutputOptions output;
     std::string statsPath;
+    std::optional<CropWindow> crop;
+    std::optional<double> partialSeconds;
 };
 
 void addOutputOptions(CLI::App& command, RenderOptions& options)
@@ -56,6 +60,7 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
     addFlag(command, "--aovs", output.firstHits,
             "albedo, normals, depth, position and ids as layers of\nevery .exr (docs/exr.md)")
         ->group("Output");
+    addPartialOption(command, options.partialSeconds);
     command
         .add_option("--stats", options.statsPath,
                     withDefault("write statistics as JSON (docs/stats.md)", "none"))
@@ -89,12 +94,11 @@ std::vector<fs::path> checkOutputs(const RenderOptions& options)
 /// What camera rays meet, as channels of the EXR. Made before the light, so that a picture that gets
 /// interrupted has them too.
 std::vector<ImageChannel> firstHitLayers(const RenderOptions& options, const PreparedScene& prepared,
-                                         Device& device)
+                                         const RenderPlan& plan, Device& device)
 {
     if (!options.output.firstHits) return {};
-    const RenderSettings& settings = prepared.scene.settings;
-    uint32_t samples = std::min(BLOCK_SIZE, settings.spp);
-    return firstHitChannels(renderFirstHits(device, settings.width, settings.height, samples), samples,
+    uint32_t samples = std::min(BLOCK_SIZE, plan.sampleCount);
+    return firstHitChannels(renderFirstHits(device, plan, samples), samples,
                             prepared.scene.objectStarts);
 }
 
@@ -115,6 +119,33 @@ ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_
             {"sahl.interrupted", result.interrupted ? "yes" : "no"},
             {"sahl.device", info.name},
             {"sahl.driver", info.driver}};
+}
+
+/// Writes the finished picture, or what there is of it after some of the passes.
+void writePictures(const RenderOptions& options, const Scene& scene, const RenderResult& result,
+                   const Device& device, const std::vector<ImageChannel>& firstHits, bool partial)
+{
+    std::vector<ImageChannel> channels = firstHits;
+    std::vector<ImageChannel> statistics = statisticsChannels(result.film);
+    channels.insert(channels.end(), statistics.begin(), statistics.end());
+    uint32_t samplesTaken = std::min(scene.settings.spp, result.passes * BLOCK_SIZE);
+    ImageMetadata metadata = metadataOf(scene, result, samplesTaken, device);
+    if (options.crop) metadata["sahl.crop"] = cropText(*options.crop);
+    if (partial) metadata["sahl.partial"] = "yes";
+    (partial ? writePartialOutputs : writeOutputs)(result.film, options.output, metadata, channels);
+}
+
+/// Looks at --crop now that the size of the picture is known. Returns the size of the film.
+RenderSettings applyCrop(RenderOptions& options, RenderSettings settings)
+{
+    const CropWindow window = clipCrop(options.crop, settings.width, settings.height);
+    if (options.crop) {
+        options.crop = window;
+        options.output.place = {window.x, window.y, settings.width, settings.height};
+    }
+    settings.width = window.width;
+    settings.height = window.height;
+    return settings;
 }
 
 void printSummary(const RenderOptions& options, const PreparedScene& prepared,
@@ -170,7 +201,8 @@ int runRender(RenderOptions& options)
     StageSeconds seconds;
     Scene scene = loadSceneFor(options.common);
     refuseToReplaceInputs(outputs);
-    requireFilmMemory(scene.settings, 1);
+    const RenderSettings filmSettings = applyCrop(options, scene.settings);
+    requireFilmMemory(filmSettings, 1);
     seconds.load = watch.lap();
     PreparedScene prepared =
         prepareScene(std::move(scene), options.common.bvhBuild, threadsFor(options.common));
@@ -180,22 +212,29 @@ int runRender(RenderOptions& options)
     seconds.upload = watch.lap();
 
     const RenderSettings& settings = prepared.scene.settings;
-    std::vector<ImageChannel> channels = firstHitLayers(options, prepared, *device);
+    RenderPlan plan = {filmSettings.width, filmSettings.height, 0, settings.spp,
+                       options.common.tileSize};
+    if (options.crop) {
+        plan.left = options.crop->x;
+        plan.top = options.crop->y;
+    }
+    std::vector<ImageChannel> firstHits = firstHitLayers(options, prepared, plan, *device);
     ProgressPrinter printer(options.common.progress, options.common.quiet, settings.spp);
-    RenderPlan plan = {settings.width, settings.height, 0, settings.spp, options.common.tileSize};
+    PartialPictures partial(options.partialSeconds.value_or(0), [&](const RenderResult& soFar) {
+        writePictures(options, prepared.scene, soFar, *device, firstHits, true);
+    });
     RenderResult result = renderPicture(
-        *device, plan, [&](const RenderProgress& progress) { printer.update(progress); });
+        *device, plan, [&](const RenderProgress& progress) { printer.update(progress); },
+        [&](const RenderResult& soFar) {
+            if (options.partialSeconds) partial.passDone(soFar);
+        });
     printer.finish();
     seconds.render = watch.lap();
 
     if (result.interrupted) sayInterrupted(options, settings, result);
     if (result.film.counters.cameraRays == 0) return interruptedExitCode();
 
-    std::vector<ImageChannel> statistics = statisticsChannels(result.film);
-    channels.insert(channels.end(), statistics.begin(), statistics.end());
-    uint32_t samplesTaken = std::min(settings.spp, result.passes * BLOCK_SIZE);
-    writeOutputs(result.film, options.output,
-                 metadataOf(prepared.scene, result, samplesTaken, *device), channels);
+    writePictures(options, prepared.scene, result, *device, firstHits, false);
     seconds.write = watch.lap();
     seconds.total = watch.total();
     if (!options.statsPath.empty()) {
@@ -223,6 +262,7 @@ Command addRenderCommand(CLI::App& app)
         ->type_name("SCENE");
     addOutputOptions(*command, *options);
     addSceneOptions(*command, options->common);
+    addCropOption(*command, options->crop);
     addDeviceOptions(*command, options->common);
     addMessageOptions(*command, options->common);
     command->footer(
