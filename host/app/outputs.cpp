@@ -33,7 +33,7 @@ std::string rescue(const Image& image, const OutputOptions& options, const Image
 /// Writes to every path and returns the first failure.
 std::optional<Error> writeEach(const Image& image, const OutputOptions& options,
                                const ImageMetadata& metadata,
-                               const std::vector<ImageChannel>& channels, bool& linearWritten)
+                               std::span<const ImageChannel> channels, bool& linearWritten)
 {
     std::optional<Error> failure;
     linearWritten = false;
@@ -63,6 +63,18 @@ void checkPicturePaths(const std::vector<fs::path>& paths)
     }
 }
 
+void checkPngPath(const std::string& option, const fs::path& path, const std::vector<fs::path>& others)
+{
+    if (extensionOf(path) != ".png") {
+        throw usageError("{} '{}': the name must end in .png", option, path.string());
+    }
+    for (const fs::path& other : others) {
+        if (other.lexically_normal() != path.lexically_normal()) continue;
+        throw usageError("{}: is written already; name another file for {}", path.string(), option);
+    }
+    requireWritable(path);
+}
+
 void refuseToReplaceInputs(const std::vector<fs::path>& outputs)
 {
     for (const fs::path& output : outputs) {
@@ -78,7 +90,7 @@ void refuseToReplaceInputs(const std::vector<fs::path>& outputs)
 }
 
 void writeImage(const Image& image, const OutputOptions& options, const fs::path& path,
-                const ImageMetadata& metadata, const std::vector<ImageChannel>& channels)
+                const ImageMetadata& metadata, std::span<const ImageChannel> channels)
 {
     std::string extension = extensionOf(path);
     if (extension == ".exr") {
@@ -86,13 +98,12 @@ void writeImage(const Image& image, const OutputOptions& options, const fs::path
     } else if (extension == ".pfm") {
         writeFileAtomically(path, encodePfm(image));
     } else {
-        writeFileAtomically(path,
-                            encodePng(toneMap(image, options.toneMap, options.exposure), metadata));
+        writeFileAtomically(path, encodePng(toneMap(image, options.tone.map), metadata));
     }
 }
 
 void writeOutputs(const Film& film, const OutputOptions& options, const ImageMetadata& metadata,
-                  const std::vector<ImageChannel>& channels)
+                  std::span<const ImageChannel> channels)
 {
     Image image = meanImage(film);
     bool linearWritten = false;
@@ -103,7 +114,7 @@ void writeOutputs(const Film& film, const OutputOptions& options, const ImageMet
 }
 
 void writePartialOutputs(const Film& film, const OutputOptions& options,
-                         const ImageMetadata& metadata, const std::vector<ImageChannel>& channels)
+                         const ImageMetadata& metadata, std::span<const ImageChannel> channels)
 {
     bool ignored = false;
     std::optional<Error> failure = writeEach(meanImage(film), options, metadata, channels, ignored);

@@ -3,11 +3,13 @@
 #include "render/render.h"
 #include "app/commands.h"
 #include "app/crop.h"
+#include "app/map_options.h"
 #include "app/option_kinds.h"
 #include "app/options.h"
 #include "app/outputs.h"
 #include "app/partial.h"
 #include "app/progress.h"
+#include "app/shading_options.h"
 #include "app/stats.h"
 #include "film/layers.h"
 #include "render/prepare.h"
@@ -27,6 +29,7 @@ namespace {
 struct RenderOptions {
     CommonOptions common;
     OutputOptions output;
+    MapOptions maps;
     std::string statsPath;
     std::optional<CropWindow> crop;
     std::optional<double> partialSeconds;
@@ -44,19 +47,7 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->group("Output");
-    addChoice(
-        command, "--tone-map", output.toneMap,
-        {{"percentile", ToneMap::percentile}, {"naive", ToneMap::naive}, {"srgb", ToneMap::srgb}},
-        "percentile (5-95), naive (min-max) or srgb")
-        ->group("Output");
-    auto setExposure = [&output](const std::string& text) {
-        output.exposure = static_cast<float>(parseReal("--exposure", text, -100, 100));
-    };
-    command
-        .add_option_function<std::string>(
-            "--exposure", setExposure, withDefault("for --tone-map srgb [stops], -100 to 100", "0"))
-        ->type_name("X")
-        ->group("Output");
+    addToneOptions(command, "--tone-map", output.tone);
     addFlag(command, "--aovs", output.firstHits,
             "albedo, normals, depth, position and ids as layers of\nevery .exr (docs/exr.md)")
         ->group("Output");
@@ -79,8 +70,18 @@ void chooseDefaultOutputs(RenderOptions& options)
 /// Refuses outputs that cannot be written, before anything is read. Returns all of them.
 std::vector<fs::path> checkOutputs(const RenderOptions& options)
 {
+    checkToneOptions(options.output.tone);
+    checkMapOptions(options.maps);
     std::vector<fs::path> outputs = options.output.paths;
     checkPicturePaths(outputs);
+    for (const MapOptions::Request& map : options.maps.maps) {
+        checkPngPath("--map", map.path, outputs);
+        outputs.push_back(map.path);
+    }
+    if (!options.output.tone.histogram.empty()) {
+        checkPngPath("--histogram", options.output.tone.histogram, outputs);
+        outputs.push_back(options.output.tone.histogram);
+    }
     if (options.statsPath.empty()) return outputs;
     if (std::find(outputs.begin(), outputs.end(), options.statsPath) != outputs.end()) {
         throw usageError("{}: is a picture to write; name another file for --stats",
@@ -96,7 +97,7 @@ std::vector<fs::path> checkOutputs(const RenderOptions& options)
 std::vector<ImageChannel> firstHitLayers(const RenderOptions& options, const PreparedScene& prepared,
                                          const RenderPlan& plan, Device& device)
 {
-    if (!options.output.firstHits) return {};
+    if (!options.output.firstHits && !needFirstHits(options.maps)) return {};
     uint32_t samples = std::min(BLOCK_SIZE, plan.sampleCount);
     return firstHitChannels(renderFirstHits(device, plan, samples), samples,
                             prepared.scene.objectStarts);
@@ -106,33 +107,21 @@ ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_
                          const Device& device)
 {
     DeviceInfo info = device.info();
-    return {{"sahl.version", SAHL_VERSION},
-            {"sahl.scene", fs::path(scene.name).filename().string()},
-            {"sahl.integrator", scene.settings.integrator == INTEGRATOR_PHONG ? "phong" : "path"},
-            {"sahl.sampler", "independent"},
-            {"sahl.varianceOver", "samples"},
-            {"sahl.seed", std::to_string(scene.settings.seed)},
-            {"sahl.maxBounces", std::to_string(scene.settings.maxBounces)},
-            {"sahl.firstSample", "0"},
-            {"sahl.sampleCount", std::to_string(samplesTaken)},
-            {"sahl.passes", std::to_string(result.passes)},
-            {"sahl.interrupted", result.interrupted ? "yes" : "no"},
-            {"sahl.device", info.name},
-            {"sahl.driver", info.driver}};
-}
-
-/// Writes the finished picture, or what there is of it after some of the passes.
-void writePictures(const RenderOptions& options, const Scene& scene, const RenderResult& result,
-                   const Device& device, const std::vector<ImageChannel>& firstHits, bool partial)
-{
-    std::vector<ImageChannel> channels = firstHits;
-    std::vector<ImageChannel> statistics = statisticsChannels(result.film);
-    channels.insert(channels.end(), statistics.begin(), statistics.end());
-    uint32_t samplesTaken = std::min(scene.settings.spp, result.passes * BLOCK_SIZE);
-    ImageMetadata metadata = metadataOf(scene, result, samplesTaken, device);
-    if (options.crop) metadata["sahl.crop"] = cropText(*options.crop);
-    if (partial) metadata["sahl.partial"] = "yes";
-    (partial ? writePartialOutputs : writeOutputs)(result.film, options.output, metadata, channels);
+    ImageMetadata metadata = describeShading(scene.settings);
+    metadata.merge(ImageMetadata{{"sahl.version", SAHL_VERSION},
+                                 {"sahl.scene", fs::path(scene.name).filename().string()},
+                                 {"sahl.integrator", integratorName(scene.settings)},
+                                 {"sahl.sampler", "independent"},
+                                 {"sahl.varianceOver", "samples"},
+                                 {"sahl.seed", std::to_string(scene.settings.seed)},
+                                 {"sahl.maxBounces", std::to_string(scene.settings.maxBounces)},
+                                 {"sahl.firstSample", "0"},
+                                 {"sahl.sampleCount", std::to_string(samplesTaken)},
+                                 {"sahl.passes", std::to_string(result.passes)},
+                                 {"sahl.interrupted", result.interrupted ? "yes" : "no"},
+                                 {"sahl.device", info.name},
+                                 {"sahl.driver", info.driver}});
+    return metadata;
 }
 
 /// Looks at --crop now that the size of the picture is known. Returns the size of the film.
@@ -162,6 +151,34 @@ void printSummary(const RenderOptions& options, const PreparedScene& prepared,
         warn(fmt::format("{} samples were negative or not finite and count as black",
                          counters.badSamples));
     }
+}
+
+/// Writes all but the statistics; of a picture that is not finished the outputs alone.
+void writeAll(const RenderOptions& options, const Film& film, std::vector<ImageChannel> firstHits,
+              const ImageMetadata& metadata, bool partial)
+{
+    std::vector<ImageChannel> channels = statisticsChannels(film);
+    const size_t always = channels.size();
+    std::move(firstHits.begin(), firstHits.end(), std::back_inserter(channels));
+    std::span<const ImageChannel> layers = channels;
+    if (!options.output.firstHits) layers = layers.first(always);  // the rest is for the maps
+    if (partial) return writePartialOutputs(film, options.output, metadata, layers);
+    writeOutputs(film, options.output, metadata, layers);
+    writeMaps(options.maps, channels, film.width, film.height, metadata);
+    if (!options.output.tone.histogram.empty()) {
+        writeHistogram(meanImage(film), options.output.tone, metadata);
+    }
+}
+
+/// Writes the finished picture, or what there is of it after some of the passes.
+void writePictures(const RenderOptions& options, const Scene& scene, const RenderResult& result,
+                   const Device& device, std::vector<ImageChannel> firstHits, bool partial)
+{
+    uint32_t samplesTaken = std::min(scene.settings.spp, result.passes * BLOCK_SIZE);
+    ImageMetadata metadata = metadataOf(scene, result, samplesTaken, device);
+    if (options.crop) metadata["sahl.crop"] = cropText(*options.crop);
+    if (partial) metadata["sahl.partial"] = "yes";
+    writeAll(options, result.film, std::move(firstHits), metadata, partial);
 }
 
 /// What a signal left of the picture. Without a single sample no file is replaced.
@@ -219,6 +236,7 @@ int runRender(RenderOptions& options)
         plan.top = options.crop->y;
     }
     std::vector<ImageChannel> firstHits = firstHitLayers(options, prepared, plan, *device);
+    seconds.firstHits = watch.lap();
     ProgressPrinter printer(options.common.progress, options.common.quiet, settings.spp);
     PartialPictures partial(options.partialSeconds.value_or(0), [&](const RenderResult& soFar) {
         writePictures(options, prepared.scene, soFar, *device, firstHits, true);
@@ -234,7 +252,7 @@ int runRender(RenderOptions& options)
     if (result.interrupted) sayInterrupted(options, settings, result);
     if (result.film.counters.cameraRays == 0) return interruptedExitCode();
 
-    writePictures(options, prepared.scene, result, *device, firstHits, false);
+    writePictures(options, prepared.scene, result, *device, std::move(firstHits), false);
     seconds.write = watch.lap();
     seconds.total = watch.total();
     if (!options.statsPath.empty()) {
@@ -245,7 +263,9 @@ int runRender(RenderOptions& options)
     printSummary(options, prepared, result);
     if (options.common.verbose) printDetails(prepared, *device);
     if (!options.common.quiet) {
-        for (const fs::path& path : options.output.paths) answer("{}\n", path.string());
+        for (const fs::path& path : outputs) {
+            if (path != options.statsPath) answer("{}\n", path.string());
+        }
     }
     return result.interrupted ? interruptedExitCode() : 0;
 }
@@ -261,6 +281,7 @@ Command addRenderCommand(CLI::App& app)
         ->required()
         ->type_name("SCENE");
     addOutputOptions(*command, *options);
+    addMapOptions(*command, options->maps);
     addSceneOptions(*command, options->common);
     addCropOption(*command, options->crop);
     addDeviceOptions(*command, options->common);

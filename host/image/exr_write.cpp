@@ -43,7 +43,7 @@ Imath::Box2i windowOf(uint32_t left, uint32_t top, uint32_t width, uint32_t heig
 }  // namespace
 
 std::vector<uint8_t> encodeExr(const Image& image, const ImageMetadata& metadata,
-                               const std::vector<ImageChannel>& channels,
+                               std::span<const ImageChannel> channels,
                                const std::optional<ImagePlace>& place)
 {
     assert(image.width > 0 && image.height > 0);

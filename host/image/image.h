@@ -5,6 +5,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,7 @@ struct ImagePlace {
 /// EXR: float32, ZIP; `channels` beside R, G and B. With a place the data window is the picture, the
 /// display window the larger one.
 std::vector<uint8_t> encodeExr(const Image& image, const ImageMetadata& metadata,
-                               const std::vector<ImageChannel>& channels = {},
+                               std::span<const ImageChannel> channels = {},
                                const std::optional<ImagePlace>& place = {});
 std::vector<uint8_t> encodePng(const Image8& image, const ImageMetadata& metadata);
 std::vector<uint8_t> encodePfm(const Image& image);

@@ -4,6 +4,7 @@
 #include "scene/camera.h"
 #include "scene/mesh_file.h"
 #include "scene/primitives.h"
+#include "scene/phong.h"
 #include "scene/probe.h"
 #include "scene/scene_reading.h"
 
@@ -33,6 +34,7 @@ Scene loadMeshScene(const fs::path& path, const SceneOptions& options)
     else
         useStudioProbe(scene, options);
     scene.camera = makeCamera(framePrimitives(scene), scene.settings.width, scene.settings.height);
+    if (scene.settings.integrator == INTEGRATOR_PHONG) addHeadLight(scene);
     return scene;
 }
 
@@ -56,7 +58,9 @@ void warnAboutOddScene(const Scene& scene)
         std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
             return m.emission.x > 0 || m.emission.y > 0 || m.emission.z > 0;
         });
-    if (!hasEmitter && scene.lights.empty() && scene.probe.height == 0) {
+    if (scene.settings.integrator == INTEGRATOR_PHONG) {
+        warnAboutDarkPhong(scene);
+    } else if (!hasEmitter && scene.lights.empty() && scene.probe.height == 0) {
         warn(fmt::format("{}: no light, no emission and no environment: the picture will be black",
                          scene.name));
     }
@@ -71,6 +75,7 @@ void applyOptions(RenderSettings& settings, const SceneOptions& options)
     settings.spp = options.spp.value_or(settings.spp);
     settings.maxBounces = options.maxBounces.value_or(settings.maxBounces);
     settings.seed = options.seed.value_or(settings.seed);
+    applyShadingOptions(settings, options);
 }
 
 void applyProbeOption(Scene& scene, const SceneOptions& options)

@@ -25,6 +25,7 @@ void readIntegrator(SceneReading& reading, const JsonNode& node)
     settings.maxBounces = integrator.uint("maxBounces", settings.maxBounces, 0, MAX_BOUNCES);
     settings.spp = integrator.uint("samplesPerPixel", settings.spp, 1, MAX_SAMPLES);
     settings.seed = integrator.uint("seed", settings.seed, 0, 0xffffffffu);
+    readShading(integrator, settings);
 }
 
 void checkTopLevelText(const JsonObject& file)

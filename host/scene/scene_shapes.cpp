@@ -276,6 +276,10 @@ void appendObj(Scene& scene, const ObjFile& obj, const Transform& transform, boo
     std::vector<uint32_t> materials;
     for (const ObjMaterial& m : obj.materials) {
         materials.push_back(addMaterial(scene, m.name, m.baseColor, m.emission));
+        Material& added = scene.materials.back();
+        added.ambientColor = m.ambientColor.value_or(added.ambientColor);
+        added.specularColor = m.specularColor;
+        added.shininess = m.shininess.value_or(added.shininess);
     }
     Mesh smoothMesh;
     if (smooth) {
