@@ -155,10 +155,10 @@ Error needsOriginal(const std::string& file, const std::string& option)
                       file, option, option);
 }
 
-void applySceneOptions(const std::string& file, const SceneOptions& options, Scene& scene)
+void applySceneOptions(const SceneOptions& options, Scene& scene)
 {
-    if (options.smoothNormals) throw needsOriginal(file, "--smooth-normals");
-    if (options.probeMapping && !options.probe) throw needsOriginal(file, "--probe-mapping");
+    if (options.smoothNormals) throw needsOriginal(scene.name, "--smooth-normals");
+    if (options.probeMapping && !options.probe) throw needsOriginal(scene.name, "--probe-mapping");
     applyOptions(scene.settings, options);
     if (options.probe)
         applyProbeOption(scene, options);
@@ -204,8 +204,8 @@ void readDescription(const JsonDocument& document, const std::vector<std::string
     readTree(JsonObject(document, object.at("tree"), "the tree", TREE), prepared.bvh);
     scene.droppedTriangles =
         static_cast<uint64_t>(object.number("droppedTriangles", 0, {0, 9007199254740992.0}));
-    applySceneOptions(document.file, options, scene);
-    checkPictureSize(scene.settings, document.file);
+    applySceneOptions(options, scene);
+    checkPictureSize(scene.settings, scene.name);
     const JsonObject camera(document, object.at("camera"), "the camera", CAMERA);
     const CameraDescription description = readCameraDescription(camera);
     try {

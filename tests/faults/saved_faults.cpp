@@ -201,10 +201,10 @@ TEST_F(SavedFaults, treesThatAreNoneAreRefused)
     // nothing.
     EXPECT_CONTAINS(errorOfNode(3, [](BvhNode& n) { n.ref0 = 0; }), "it refers to node 0");
     EXPECT_CONTAINS(errorOfNode(0, [](BvhNode& n) { n.ref0 = 0; }), "it refers to node 0");
-    EXPECT_CONTAINS(errorOfNode(0, [](BvhNode& n) { n.ref1 = 1; }), "child 1 of node 0: it refers");
+    EXPECT_CONTAINS(errorOfNode(1, [](BvhNode& n) { n.ref1 = 2; }), "it refers to node 2;");
     EXPECT_CONTAINS(errorOfNode(0, [](BvhNode& n) { n.ref0 = 0x7fffffff; }), "2147483647");
     EXPECT_CONTAINS(errorOfNode(2, [](BvhNode& n) { n.ref1 = REF_NONE; }), "there is nothing");
-    EXPECT_CONTAINS(errorOfNode(0, [](BvhNode& n) { n.ref0 = REF_LEAF; }), "of node 0: its box");
+    EXPECT_CONTAINS(errorOfNode(0, [](BvhNode& n) { n.ref0 = REF_LEAF; }), "a leaf of ");
     EXPECT_CONTAINS(errorOfNode(0, [](BvhNode& n) { n.ref0 = 0xfffffff0; }),
                     "a leaf of 1 primitives");
     EXPECT_CONTAINS(errorOfNode(0, [](BvhNode& n) { n.hi0.x += 1; }), "its box is not that");
