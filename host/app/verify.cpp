@@ -150,7 +150,8 @@ Command addVerifyCommand(CLI::App& app)
             ->group("Commands");
     command
         ->add_option("scene", options->common.scenePath,
-                     "scene (.json), mesh (.obj) or saved scene (.sahl);\nwithout one a small built-in scene")
+                     "scene (.json), mesh (.obj, .ply) or saved scene (.sahl);\nwithout one a small "
+                     "built-in scene")
         ->type_name("SCENE");
     command
         ->add_option("--difference", options->differencePath,

@@ -245,7 +245,8 @@ bool isSound(const Material& material)
     return material.type <= MATERIAL_REPORT && isAmount(material.baseColor) &&
            isAmount(material.emission) && isFinite(material.eta) && material.eta > 0 &&
            isAmount(material.conductorEta) && isAmount(material.conductorK) &&
-           isAmount({material.diffuseWeight, material.specularWeight, 0});
+           isAmount({material.diffuseWeight, material.specularWeight, material.shininess}) &&
+           isAmount(material.specularColor) && isAmount(material.ambientColor);
 }
 
 bool isSound(const Light& light)
@@ -331,7 +332,7 @@ void checkFrame(const std::string& file, const Frame& frame, uint64_t texelCount
     const bool finite = isFinite(camera.position) && isFinite(camera.right) &&
                         isFinite(camera.down) && isUnit(camera.forward) &&
                         isFinite(camera.lensRight) && isFinite(camera.lensDown) &&
-                        isFinite(camera.focusDistance);
+                        isFinite(camera.focusDistance) && isAmount(frame.ambient);
     if (!finite) throw damaged(file, "scene", "the camera reaches beyond the range of numbers");
     checkProbe(file, frame.probe, texelCount);
     checkProbe(file, frame.background, texelCount);

@@ -1,6 +1,7 @@
 #include "saved/description.h"
 
 #include "scene/json_fields.h"
+#include "scene/phong.h"
 #include "scene/probe.h"
 #include "scene/scene_reading.h"
 
@@ -19,10 +20,10 @@ const KeySet DESCRIPTION = {
     "",
     {"settings", "camera", "probe", "background", "tree", "droppedTriangles"},
     {"settings", "camera", "probe", "tree", "droppedTriangles"}};
-const KeySet SETTINGS = {
-    "",
-    {"width", "height", "samplesPerPixel", "maxBounces", "seed", "integrator", "jitter"},
-    {"width", "height", "samplesPerPixel", "maxBounces", "seed", "integrator", "jitter"}};
+const std::vector<std::string> SETTINGS_KEYS = {
+    "width",  "height", "samplesPerPixel", "maxBounces", "seed",   "integrator",
+    "jitter", "terms",  "shadows",         "normals",    "ambient"};
+const KeySet SETTINGS = {"", SETTINGS_KEYS, SETTINGS_KEYS};
 const KeySet CAMERA = {"",
                        {"eye", "lookAt", "up", "axes", "fovDeg", "fovHorizontal",
                         "orthographicHeight", "lensRadius", "focusDistance", "framed"},
@@ -43,13 +44,21 @@ Json jsonOf(const Vector& v)
 
 Json describe(const RenderSettings& settings)
 {
+    Json terms = Json::array();
+    for (const PhongTerm& term : phongTerms()) {
+        if ((settings.shading & term.bit) != 0) terms.push_back(term.name);
+    }
     return {{"width", settings.width},
             {"height", settings.height},
             {"samplesPerPixel", settings.spp},
             {"maxBounces", settings.maxBounces},
             {"seed", settings.seed},
             {"integrator", settings.integrator == INTEGRATOR_PHONG ? "phong" : "path"},
-            {"jitter", settings.jitter}};
+            {"jitter", settings.jitter},
+            {"terms", terms},
+            {"shadows", (settings.shading & SHADING_SHADOWS) != 0},
+            {"normals", (settings.shading & SHADING_FLAT) != 0 ? "flat" : "interpolated"},
+            {"ambient", jsonOf(settings.ambient)}};
 }
 
 Json describe(const CameraDescription& camera)
@@ -96,6 +105,7 @@ RenderSettings readSettings(const JsonObject& object)
     const bool phong = object.choice("integrator", {"path", "phong"}) == "phong";
     settings.integrator = phong ? INTEGRATOR_PHONG : INTEGRATOR_PATH;
     settings.jitter = object.boolean("jitter", true);
+    readShading(object, settings);
     return settings;
 }
 
@@ -160,9 +170,7 @@ void applySceneOptions(const SceneOptions& options, Scene& scene)
     if (options.smoothNormals) throw needsOriginal(scene.name, "--smooth-normals");
     if (options.probeMapping && !options.probe) throw needsOriginal(scene.name, "--probe-mapping");
     applyOptions(scene.settings, options);
-    if (options.probe)
-        applyProbeOption(scene, options);
-    else if (options.probeFilter)
+    if (options.probeFilter && !options.probe)
         scene.probe.filterMode = probeFilter(*options.probeFilter);
 }
 
@@ -212,6 +220,25 @@ void readDescription(const JsonDocument& document, const std::vector<std::string
         placeCamera(scene, description);
     } catch (const Error& error) {
         throw errorAt(document, camera.node(), error.what());
+    }
+}
+
+void replaceProbe(const SceneOptions& options, PreparedScene& prepared)
+{
+    if (!options.probe) return;
+    Scene& scene = prepared.scene;
+    const std::span<const vec4> saved = prepared.deviceScene().probeTexels;
+    std::optional<Probe> background = scene.background;
+    std::vector<vec4> kept;
+    if (background) {
+        const auto begin = saved.begin() + background->firstTexel;
+        kept.assign(begin, begin + size_t{background->width} * background->height);
+    }
+    applyProbeOption(scene, options);
+    if (background) {
+        background->firstTexel = static_cast<uint>(scene.probeTexels.size());
+        scene.probeTexels.insert(scene.probeTexels.end(), kept.begin(), kept.end());
+        scene.background = background;
     }
 }
 

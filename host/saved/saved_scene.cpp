@@ -164,6 +164,7 @@ PreparedScene loadSavedScene(const fs::path& path, const SceneOptions& options)
     prepared.scene.objectStarts.assign(arrays.objectStarts.begin(), arrays.objectStarts.end());
     const DeviceScene scene = prepared.deviceScene();
     checkFrame(file, scene.frame, scene.probeTexels.size());
+    replaceProbe(options, prepared);
     return prepared;
 }
 

@@ -24,6 +24,9 @@ constexpr std::array MATERIAL_FIELDS = {
     Field<Material>{"diffuseWeight", &Material::diffuseWeight},
     Field<Material>{"conductorK", &Material::conductorK},
     Field<Material>{"specularWeight", &Material::specularWeight},
+    Field<Material>{"specularColor", &Material::specularColor},
+    Field<Material>{"shininess", &Material::shininess},
+    Field<Material>{"ambientColor", &Material::ambientColor},
 };
 constexpr std::array LIGHT_FIELDS = {
     Field<Light>{"position", &Light::position}, Field<Light>{"intensity", &Light::intensity},
@@ -41,7 +44,9 @@ constexpr size_t bytesOf(const std::array<Field<Struct>, count>& fields)
     }
     return bytes;
 }
-static_assert(bytesOf(MATERIAL_FIELDS) == sizeof(Material), "a field of Material is not saved");
+constexpr size_t UNUSED_IN_MATERIAL = sizeof(Material::unused0);
+static_assert(bytesOf(MATERIAL_FIELDS) + UNUSED_IN_MATERIAL == sizeof(Material),
+              "a field of Material is not saved");
 static_assert(bytesOf(LIGHT_FIELDS) == sizeof(Light), "a field of Light is not saved");
 
 // By their numbers, MATERIAL_* and LIGHT_*.

@@ -73,7 +73,6 @@ public:
     {
         const char* begin = text_.data();
         sax_parse(begin, begin + text_.size());
-        if (!options_.probe) prepared_.scene.probeTexels = std::move(texels_);
         prepared_.bvh.nodes = std::move(tree_.bvh.nodes);
         prepared_.bvh.primitives = std::move(tree_.bvh.primitives);
         prepared_.bvh.rootRef = tree_.bvh.rootRef;
@@ -335,7 +334,7 @@ private:
     void finishTexel()
     {
         requireNumbers(3);
-        texels_.emplace_back(vectorAt(0), 0.0f);
+        prepared_.scene.probeTexels.emplace_back(vectorAt(0), 0.0f);
     }
 
     void finishVectors()
@@ -434,7 +433,6 @@ private:
     std::array<float, 9> numbers_ = {};
     size_t numberCount_ = 0;
     size_t vectors_ = 0;  ///< complete ones among them
-    std::vector<vec4> texels_;
     TreeAssembly tree_;
 };
 
@@ -452,6 +450,7 @@ PreparedScene loadTreeJson(const fs::path& path, const SceneOptions& options)
     const DeviceScene scene = prepared.deviceScene();
     checkArrays(file, scene, prepared.bvh.rootRef, prepared.scene.objectStarts);
     checkFrame(file, scene.frame, scene.probeTexels.size());
+    replaceProbe(options, prepared);
     return prepared;
 }
 
