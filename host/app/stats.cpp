@@ -69,8 +69,8 @@ Json countersJson(const Counters& counters)
 
 Json treeJson(const BvhStatistics& tree)
 {
-    return {{"build", nameOf(tree.build)}, {"innerNodes", tree.innerNodes},
-            {"leaves", tree.leaves},       {"depth", tree.depth},
+    return {{"build", nameOf(tree.build)},     {"innerNodes", tree.innerNodes},
+            {"leaves", tree.leaves},           {"depth", tree.depth},
             {"largestLeaf", tree.largestLeaf}, {"sahCost", tree.sahCost}};
 }
 

@@ -160,7 +160,8 @@ TEST_F(SavedFaults, anotherVersionMachineOrLayoutIsNamed)
     EXPECT_CONTAINS(errorOfSections([](auto& sections) {
                         sectionNamed(sections, "materials").elementBytes = 32;
                     }),
-                    "section 'materials': its elements have 32 bytes, 64 are expected");
+                    fmt::format("section 'materials': its elements have 32 bytes, {} are expected",
+                                sizeof(Material)));
 }
 
 TEST_F(SavedFaults, sectionsThatOverlapOrRunPastTheEndAreRefused)
@@ -329,7 +330,7 @@ TEST_F(SavedFaults, hostileContentsUnderRightHashesAreRefusedOrRender)
     const std::vector<OwnSection> good = sectionsOf(path);
     const std::unique_ptr<Device> device = makeCpuDevice({});
     int rendered = 0;
-    for (int i = 0; i < 1500; i++) {
+    for (int i = 0; i < 800; i++) {
         std::vector<OwnSection> sections = good;
         OwnSection& section = sections[1 + random.below(static_cast<uint>(sections.size() - 1))];
         const uint words = static_cast<uint>(section.bytes.size() / 4);
@@ -348,8 +349,8 @@ TEST_F(SavedFaults, hostileContentsUnderRightHashesAreRefusedOrRender)
         renderFilm(*device, prepared);
         rendered++;
     }
-    EXPECT_GT(rendered, 50);  // else nothing was shown about what passes
-    EXPECT_LT(rendered, 1000);
+    EXPECT_GT(rendered, 40);  // else nothing was shown about what passes
+    EXPECT_LT(rendered, 500);
 }
 
 }  // namespace
