@@ -144,7 +144,7 @@ void printSummary(const RenderOptions& options, const PreparedScene& prepared,
     const Counters& counters = result.film.counters;
     uint64_t rays = counters.cameraRays + counters.indirectRays + counters.shadowRays;
     say("{} primitives, {} samples, {} rays in {:.1f} s ({:.2f} Msamples/s, {:.2f} Mrays/s)\n",
-        prepared.bvh.primitives.size(), counters.cameraRays, rays, result.seconds,
+        prepared.deviceScene().primitives.size(), counters.cameraRays, rays, result.seconds,
         double(counters.cameraRays) / std::max(result.seconds, 1e-9) * 1e-6,
         double(rays) / std::max(result.seconds, 1e-9) * 1e-6);
     if (counters.badSamples > 0) {
@@ -216,13 +216,13 @@ int runRender(RenderOptions& options)
 
     Stopwatch watch;
     StageSeconds seconds;
-    Scene scene = loadSceneFor(options.common);
-    refuseToReplaceInputs(outputs);
-    const RenderSettings filmSettings = applyCrop(options, scene.settings);
-    requireFilmMemory(filmSettings, 1);
-    seconds.load = watch.lap();
-    PreparedScene prepared =
-        prepareScene(std::move(scene), options.common.bvhBuild, threadsFor(options.common));
+    RenderSettings filmSettings;
+    PreparedScene prepared = prepareSceneFor(options.common, [&](const Scene& scene) {
+        refuseToReplaceInputs(outputs);
+        filmSettings = applyCrop(options, scene.settings);
+        requireFilmMemory(filmSettings, 1);
+        seconds.load = watch.lap();
+    });
     seconds.build = watch.lap();
     std::unique_ptr<Device> device = openDeviceFor(options.common);
     device->setScene(prepared.deviceScene());
@@ -277,7 +277,9 @@ Command addRenderCommand(CLI::App& app)
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command =
         app.add_subcommand("render", "render a scene into pictures")->group("Commands");
-    command->add_option("scene", options->common.scenePath, "scene (.json) or mesh (.obj, .ply)")
+    command
+        ->add_option("scene", options->common.scenePath,
+                     "scene (.json), mesh (.obj, .ply) or saved scene (.sahl)")
         ->required()
         ->type_name("SCENE");
     addOutputOptions(*command, *options);

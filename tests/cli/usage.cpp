@@ -20,7 +20,8 @@ TEST(Usage, noArguments_showAShortUsageOnStderr)
     RunResult result = sahl({});
     EXPECT_EQ(result.exitCode, 2);
     EXPECT_EQ(result.out, "");
-    EXPECT_EQ(result.err, "usage: sahl render|tonemap|verify|devices [options]\ntry: sahl --help\n");
+    EXPECT_EQ(result.err,
+              "usage: sahl render|tonemap|verify|bvh|devices [options]\ntry: sahl --help\n");
 }
 
 TEST(Usage, helpAndVersion_goToStdout)
