@@ -51,9 +51,10 @@ int run(int argc, char** argv)
         "  sahl verify                     # does this machine's driver compute the right bits?");
     std::map<std::string, Command> commands = {{"render", addRenderCommand(app)},
                                                {"verify", addVerifyCommand(app)},
-                                               {"devices", addDevicesCommand(app)}};
+                                               {"devices", addDevicesCommand(app)},
+                                               {"bench", addBenchCommand(app)}};
     if (argc < 2) {
-        say("usage: sahl render|verify|devices [options]\ntry: sahl --help\n");
+        say("usage: sahl render|verify|devices|bench [options]\ntry: sahl --help\n");
         return static_cast<int>(ErrorKind::usage);
     }
     app.require_subcommand(1);

@@ -20,7 +20,7 @@ TEST(Usage, noArguments_showAShortUsageOnStderr)
     RunResult result = sahl({});
     EXPECT_EQ(result.exitCode, 2);
     EXPECT_EQ(result.out, "");
-    EXPECT_EQ(result.err, "usage: sahl render|verify|devices [options]\ntry: sahl --help\n");
+    EXPECT_EQ(result.err, "usage: sahl render|verify|devices|bench [options]\ntry: sahl --help\n");
 }
 
 TEST(Usage, helpAndVersion_goToStdout)
@@ -92,8 +92,8 @@ TEST(Usage, unknownOption_suggestsTheNearest)
 TEST(Usage, unknownCommand_suggestsTheNearest)
 {
     expectUsageError({"rendr", "x.json"}, "unknown command 'rendr'; did you mean render?");
-    expectUsageError({"sing"}, "unknown command 'sing'; choose render, verify or devices");
-    expectUsageError({"--"}, "a command is missing; choose render, verify or devices");
+    expectUsageError({"sing"}, "unknown command 'sing'; choose render, verify, devices or bench");
+    expectUsageError({"--"}, "a command is missing; choose render, verify, devices or bench");
 }
 
 TEST(Usage, missingAndExtraWords_areNamed)

@@ -93,7 +93,7 @@ def references(setting, figure):
         if picture:
             cells.append(f"<figure>{picture}<figcaption>the report: {html.escape(pane.label)}"
                          "</figcaption></figure>")
-    return f"<details><summary>What the report showed</summary>{row(cells)}</details>" if cells else ""
+    return f"<details open><summary>What the report showed</summary>{row(cells)}</details>" if cells else ""
 
 
 def step_facts(result):
