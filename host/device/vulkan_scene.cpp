@@ -21,10 +21,12 @@ SceneArrays sceneArrays(const DeviceScene& scene)
     return arrays;
 }
 
-// A ray visits each node and each triangle at most once, and a path has two rays a bounce.
+// A ray visits each node and each triangle at most once, and a path has two rays a bounce, or under
+// phong one for each light.
 uint64_t mostStepsPerSample(const DeviceScene& scene)
 {
     uint64_t rays = 2 * (uint64_t{scene.frame.maxBounces} + 2);
+    if (scene.frame.integrator == INTEGRATOR_PHONG) rays = 1 + uint64_t{scene.frame.lightCount};
     return rays * (2 * uint64_t{scene.nodes.size()} + scene.primitives.size() + 16);
 }
 

@@ -51,7 +51,7 @@ void triangleInteraction(Primitive triangle, Traversal hit, vec3 dir, INOUT(Surf
     isect.p = (q0 + q1) + q2;
     vec3 sizes = (absolute3(q0) + absolute3(q1)) + absolute3(q2);
     completeInteraction(triangleNormal(triangle, -dir), dir, sizes, isect);
-    if (triangle.shape == SHAPE_FLAT) return;
+    if (triangle.shape == SHAPE_FLAT || (frame.shading & SHADING_FLAT) != 0u) return;
 
     TriangleNormals normals = loadNormals(triangle.shape);
     vec3 ns = (normals.n0 * b0 + normals.n1 * hit.b1) + normals.n2 * hit.b2;
