@@ -37,7 +37,7 @@ struct BenchOptions {
 struct BenchRow {
     const BenchScene* scene;
     std::string mesh;
-    uint64_t nodes, primitives, rays, nodeVisits, primitiveTests;
+    uint64_t nodes, primitives, dropped, rays, nodeVisits, primitiveTests;
     double buildSeconds, renderSeconds;
 };
 
@@ -86,6 +86,7 @@ BenchRow measure(const BenchScene& described, const fs::path& mesh, const BenchO
             mesh.string(),
             tree.innerNodes + tree.leaves,
             prepared.bvh.primitives.size(),
+            prepared.scene.droppedTriangles,
             counters.cameraRays + counters.indirectRays + counters.shadowRays,
             counters.boxTests / 2,
             counters.primitiveTests,
@@ -102,7 +103,7 @@ double perRay(uint64_t count, const BenchRow& row)
 const ReportRow* reportOf(const BenchRow& row)
 {
     const std::optional<ReportRow>& report = row.scene->report;
-    return report && report->leaves == row.primitives ? &*report : nullptr;
+    return report && report->leaves == row.primitives + row.dropped ? &*report : nullptr;
 }
 
 /// The numbers that both have, in the order of the report's table.
