@@ -1,5 +1,5 @@
-// Every scene of the report's figures: 0 differing bits. Scenes that need a mesh which is not in the
-// repository are skipped, by name, where neither SAHL_ASSETS nor tools/fetch_assets has it.
+// Every scene of the report's figures: 0 differing bits. Scenes that need a mesh which is not in
+// the repository are skipped, by name, where neither SAHL_ASSETS nor tools/fetch_assets has it.
 
 #include "render/verify.h"
 #include "support/device_test.h"
@@ -54,8 +54,10 @@ std::vector<std::string> meshesOf(const std::string& text)
 /// The folder that has all of `meshes`; empty where none has.
 fs::path folderWith(const std::vector<std::string>& meshes)
 {
-    for (const fs::path& folder : {assetFolder() / "meshes/miro", sourceFolder() / ".assets/meshes"}) {
-        if (std::all_of(meshes.begin(), meshes.end(), [&](auto& mesh) { return fs::exists(folder / mesh); }))
+    for (const fs::path& folder :
+         {assetFolder() / "meshes/miro", sourceFolder() / ".assets/meshes"}) {
+        if (std::all_of(meshes.begin(), meshes.end(),
+                        [&](auto& mesh) { return fs::exists(folder / mesh); }))
             return folder;
     }
     return {};
@@ -79,7 +81,8 @@ TEST_P(VerifyReport, hasNoDifferingBit)
     }
     options.allowedPaths = {meshes};
     files.write("scene.json", placed);
-    const PreparedScene prepared = prepareScene(files.load("scene.json", options), BvhBuild::automatic, 2);
+    const PreparedScene prepared =
+        prepareScene(files.load("scene.json", options), BvhBuild::automatic, 2);
     auto device = openFirstDevice();
     auto cpu = makeCpuDevice({});
     const VerifyResult result =
@@ -92,11 +95,14 @@ TEST_P(VerifyReport, hasNoDifferingBit)
     EXPECT_GT(counters.bounces, counters.cameraRays / 20) << "hardly anything was hit";
 }
 
-INSTANTIATE_TEST_SUITE_P(, VerifyReport, ::testing::ValuesIn(reportScenes()), [](const auto& tested) {
-    std::string name = tested.param.substr(0, tested.param.rfind('.'));
-    std::replace_if(name.begin(), name.end(), [](char c) { return c == '/' || c == '-'; }, '_');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(, VerifyReport, ::testing::ValuesIn(reportScenes()),
+                         [](const auto& tested) {
+                             std::string name = tested.param.substr(0, tested.param.rfind('.'));
+                             std::replace_if(
+                                 name.begin(), name.end(),
+                                 [](char c) { return c == '/' || c == '-'; }, '_');
+                             return name;
+                         });
 
 }  // namespace
 }  // namespace sahl::testing

@@ -27,7 +27,7 @@ TEST(Usage, helpAndVersion_goToStdout)
 {
     for (const Arguments& arguments :
          {Arguments{"--help"}, {"-h"}, {"render", "--help"}, {"tonemap", "-h"}, {"verify", "-h"},
-          {"devices", "-h"}}) {
+          {"devices", "-h"}, {"bench", "-h"}}) {
         RunResult result = sahl(arguments);
         EXPECT_EQ(result.exitCode, 0);
         EXPECT_HAS(result.out, "Usage: sahl ");
