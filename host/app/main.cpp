@@ -56,9 +56,7 @@ int run(int argc, char** argv)
                                                {"devices", addDevicesCommand(app)},
                                                {"bench", addBenchCommand(app)}};
     if (argc < 2) {
-        say("usage: sahl render|tonemap|verify|bvh|devices|bench [options]
-try: sahl --help
-");
+        say("usage: sahl render|tonemap|verify|bvh|devices|bench [options]\ntry: sahl --help\n");
         return static_cast<int>(ErrorKind::usage);
     }
     app.require_subcommand(1);
