@@ -17,6 +17,7 @@ Kernel<Order> kernelFor(const DeviceScene& scene)
     kernel.materials = scene.materials;
     kernel.lights = scene.lights;
     kernel.probeTexels = scene.probeTexels;
+    kernel.instances = scene.instances;
     kernel.frame = scene.frame;
     return kernel;
 }

@@ -134,9 +134,8 @@ CameraDescription framePrimitives(const Scene& scene)
 {
     constexpr double MARGIN = 0.9;  // part of the picture that the box may fill
     CameraDescription description;
-    if (scene.primitives.empty()) return description;
-    Box box;
-    for (const Primitive& primitive : scene.primitives) grow(box, extentOf(primitive));
+    if (scene.primitives.empty() && scene.instances.empty()) return description;
+    const Box box = extentOf(scene);
     const glm::dvec3 lo(box.lo), hi(box.hi);
     glm::dvec3 center = (lo + hi) * 0.5;
     glm::dvec3 towardsEye(0.55, 0.42, 1.0);

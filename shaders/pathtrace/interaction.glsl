@@ -73,8 +73,8 @@ void sphereInteraction(Primitive sphere, Traversal hit, vec3 org, vec3 dir,
     completeInteraction(normal, dir, absolute3(sphere.p0) + absolute3(arm), isect);
 }
 
-/// The interaction for the closest hit of a ray.
-SurfaceInteraction interactionAt(Traversal hit, vec3 org, vec3 dir)
+/// The interaction for the closest hit of a ray, in the space where the primitive is stored.
+SurfaceInteraction interactionInSpace(Traversal hit, vec3 org, vec3 dir)
 {
     Primitive shape = loadPrimitive(hit.slot);
     SurfaceInteraction isect;
@@ -85,6 +85,46 @@ SurfaceInteraction interactionAt(Traversal hit, vec3 org, vec3 dir)
         triangleInteraction(shape, hit, dir, isect);
     }
     return isect;
+}
+
+/// Takes an interaction with an instance's object to the world.
+void placeInteraction(ObjectInstance instance, INOUT(SurfaceInteraction) isect)
+{
+    vec3 inside = isect.ng;
+    vec3 normal = normalToWorld(instance, inside);
+    float inverseLength = quotient(1.0f, root(dot3(normal, normal)));
+    vec3 sizes = absolute3(isect.p);
+    isect.p = pointToWorld(instance, isect.p);
+    isect.ng = normal * inverseLength;
+    isect.nsStored = unit(normalToWorld(instance, isect.nsStored));
+    isect.ns = dot3(isect.nsStored, isect.ng) < 0.0f ? -isect.nsStored : isect.nsStored;
+    if (instance.material != NO_MATERIAL) isect.material = instance.material;
+
+    // A ray that leaves goes through two maps before it may meet the surface again: p into the world,
+    // rounded by less than 6 times 2^-24 of `reach` and of the translation, and its origin back,
+    // rounded by less than 6 times 2^-24 of `back`; 16 are granted to each. The first counts along the
+    // normal in the world, the second along the normal in the object's space, where a step of 1 along ng
+    // is one of |normal|.
+    vec3 reach = timesRows(absolute3(instance.toWorld0), absolute3(instance.toWorld1),
+                           absolute3(instance.toWorld2), sizes);
+    vec3 back = timesRows(absolute3(instance.toObject0), absolute3(instance.toObject1),
+                          absolute3(instance.toObject2), reach);
+    float errorInside = isect.pError + 1e-6f * dot3(absolute3(inside), back);
+    float errorInWorld = 1e-6f * dot3(absolute3(isect.ng), reach + absolute3(instance.translation));
+    isect.pError = errorInside * inverseLength + errorInWorld;
+}
+
+/// The interaction for the closest hit of a ray.
+SurfaceInteraction interactionAt(Traversal hit, vec3 org, vec3 dir)
+{
+    if (HAS_INSTANCES && hit.instance != NO_INSTANCE) {
+        ObjectInstance instance = loadInstance(hit.instance);
+        SurfaceInteraction isect = interactionInSpace(hit, pointToObject(instance, org),
+                                                      directionToObject(instance, dir));
+        placeInteraction(instance, isect);
+        return isect;
+    }
+    return interactionInSpace(hit, org, dir);
 }
 
 /// The normal for mirror directions: the shading normal, where it faces the ray as it should.

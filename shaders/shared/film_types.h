@@ -92,9 +92,13 @@ struct Traversal
     float tHit;        // its distance [m]; the ray's end while nothing is hit
     float b1;          // its barycentric coordinates
     float b2;
+    uint inside;       // instance that the walk is in, or NO_INSTANCE: in the world
+    uint instance;     // that the closest hit is in, or NO_INSTANCE
     uint unused0;
+    uint unused1;
+    uint unused2;
 };
-GPU_STRUCT_SIZE(Traversal, 32);
+GPU_STRUCT_SIZE(Traversal, 48);
 
 struct SuspendedPath
 {
@@ -110,8 +114,8 @@ struct SuspendedPath
     uint unused2;
     uint stack[MAX_SUSPENDED_STACK];
 };
-GPU_STRUCT_SIZE(SuspendedPath, 176 + 4 * 64);
-GPU_FIELD(SuspendedPath, stack, 176);
+GPU_STRUCT_SIZE(SuspendedPath, 192 + 4 * 64);
+GPU_FIELD(SuspendedPath, stack, 192);
 
 // One dispatch: up to one sample more for every pixel of a tile. Push constants.
 struct Dispatch
