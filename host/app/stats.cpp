@@ -66,6 +66,8 @@ Json statisticsJson(const PreparedScene& prepared, const Film& film, Device& dev
         {"scene",
          {{"name", scene.name},
           {"primitives", prepared.bvh.primitives.size()},
+          {"primitivesSeen", tree.primitivesSeen},
+          {"instances", prepared.bvh.instances.size()},
           {"droppedTriangles", scene.droppedTriangles},
           {"materials", scene.materials.size()},
           {"lights", scene.lights.size()},

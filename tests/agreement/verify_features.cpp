@@ -66,7 +66,7 @@ TEST_P(VerifySmallScenes, haveNoDifferingBit)
 INSTANTIATE_TEST_SUITE_P(, VerifySmallScenes,
                          ::testing::Values("mirror", "dielectric", "conductor", "report_material",
                                            "sphere", "lens", "orthographic", "spot", "directional",
-                                           "background", "emission", "angular"),
+                                           "background", "emission", "angular", "instances"),
                          [](const auto& tested) { return std::string(tested.param); });
 
 TEST_F(VerifyFeatures, showcaseHasNoDifferingBit)
