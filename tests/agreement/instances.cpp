@@ -213,14 +213,16 @@ Primitive anyShape(bool sphere, Random& random)
     return shape;
 }
 
-void expectNoSelfHits(bool sphere, double lowest, double highest, size_t count)
+/// Scales of the axes are between 10^lowest and 10^highest, all times one of 10^-common to 10^common.
+void expectNoSelfHits(bool sphere, double lowest, double highest, double common, size_t count)
 {
     SpawnCounts counts;
     constexpr size_t CHUNK = 256;
     parallelFor((count + CHUNK - 1) / CHUNK, defaultThreadCount(), [&](size_t chunk) {
         Random random(0x0ff5 + chunk);
         for (size_t i = 0; i < CHUNK; i++) {
-            const Placement placement = anyPlacement(lowest, highest, random);
+            Placement placement = anyPlacement(lowest, highest, random);
+            placement.linear *= anyScale(-common, common, random);
             spawn(anyShape(sphere, random), placement, random, counts);
         }
     });
@@ -228,28 +230,24 @@ void expectNoSelfHits(bool sphere, double lowest, double highest, size_t count)
     EXPECT_GT(counts.spawned, count * 8 / 10);
 }
 
-TEST(InstanceOffsets, noRayFromATriangleMeetsItAgain)
+// Thin and pointed ellipsoids are left to the pictures: where the surface bends more than once within
+// the offset, which a rounding of the coordinates decides, there is no right answer.
+void expectNoSelfHits(size_t count)
 {
-    expectNoSelfHits(false, -0.5, 0.5, 20'000);
-    expectNoSelfHits(false, -3, 3, 20'000);
+    expectNoSelfHits(false, -0.5, 0.5, 0, count);
+    expectNoSelfHits(false, -3, 3, 0, count);
+    expectNoSelfHits(true, -0.3, 0.3, 0, count);
+    expectNoSelfHits(true, -0.3, 0.3, 3, count);
 }
 
-TEST(InstanceOffsets, noRayFromASphereMeetsItWhereItStarted)
+TEST(InstanceOffsets, noRayMeetsTheSurfaceWhereItStarted)
 {
-    expectNoSelfHits(true, -0.5, 0.5, 20'000);
-    expectNoSelfHits(true, -1.5, 1.5, 20'000);
+    expectNoSelfHits(20'000);
 }
 
-TEST(LongInstanceOffsets, noRayFromATriangleMeetsItAgain)
+TEST(LongInstanceOffsets, noRayMeetsTheSurfaceWhereItStarted)
 {
-    expectNoSelfHits(false, -0.5, 0.5, 500'000);
-    expectNoSelfHits(false, -3, 3, 500'000);
-}
-
-TEST(LongInstanceOffsets, noRayFromASphereMeetsItWhereItStarted)
-{
-    expectNoSelfHits(true, -0.5, 0.5, 500'000);
-    expectNoSelfHits(true, -1.5, 1.5, 500'000);
+    expectNoSelfHits(500'000);
 }
 
 TEST(Instances, thatCannotBeInvertedAreRefused)

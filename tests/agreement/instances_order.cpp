@@ -175,12 +175,12 @@ TEST(InstanceOrder, ofScalesFromAThousandthToAThousand_sameBits)
 
 TEST(LongInstanceOrder, sameBitsInEveryOrder)
 {
-    expectSameBitsInScenes(-0.5, 0.5, 40, 25'000);
+    expectSameBitsInScenes(-0.5, 0.5, 20, 25'000);
 }
 
 TEST(LongInstanceOrder, ofScalesFromAThousandthToAThousand_sameBits)
 {
-    expectSameBitsInScenes(-3, 3, 40, 25'000);
+    expectSameBitsInScenes(-3, 3, 20, 25'000);
 }
 
 /// Leaves of the world's tree hold primitives alone: an instance stands where a leaf could.

@@ -11,7 +11,7 @@ protected:
     static const PreparedScene& scene()
     {
         static const PreparedScene prepared = [] {
-            SceneOptions options = smallPicture(48, 32, 12);
+            SceneOptions options = smallPicture(40, 24, 4);
             const fs::path path = fs::path(__FILE__).parent_path() / "../scenes/instances.json";
             return prepareScene(loadScene(path, options), BvhBuild::sweep, 1);
         }();
@@ -39,10 +39,10 @@ TEST_F(InstanceBits, areEqualThroughStorageBuffersAndTexelBuffers)
     expectReference(options);
 }
 
-/// With 7 steps at a time nearly every path stops inside some instance, often in the step into it.
+/// With 9 steps at a time nearly every path stops inside some instance, often in the step into it.
 TEST_F(InstanceBits, areEqualWhenPathsStopInsideInstances)
 {
-    for (uint32_t steps : {7u, 37u}) {
+    for (uint32_t steps : {9u, 61u}) {
         DeviceOptions options;
         options.stepBudget = steps;
         auto device = openFirstDevice(options);
@@ -73,8 +73,8 @@ TEST_F(InstanceBits, areEqualInEveryOrderOfTraversal)
 
 TEST_F(InstanceBits, ofFirstHitsAreEqual)
 {
-    const TileRequest tile = {0, 0, 48, 32, 0, BLOCK_SIZE};
-    std::vector<FirstHits> expected(48 * 32), found(48 * 32);
+    const TileRequest tile = {0, 0, 40, 24, 0, BLOCK_SIZE};
+    std::vector<FirstHits> expected(40 * 24), found(40 * 24);
     auto cpu = makeCpuDevice({});
     cpu->setScene(scene().deviceScene());
     cpu->renderFirstHits(tile, expected);
@@ -88,7 +88,7 @@ TEST_F(InstanceBits, ofFirstHitsAreEqual)
 TEST_F(InstanceBits, areEqualAfterAnotherScene)
 {
     const PreparedScene plain =
-        prepareScene(builtInScene(smallPicture(48, 32, 4)), BvhBuild::sweep, 1);
+        prepareScene(builtInScene(smallPicture(40, 24, 4)), BvhBuild::sweep, 1);
     const Film expected = renderFilm(*makeCpuDevice({}), plain);
     auto device = openFirstDevice();
     EXPECT_TRUE(renderFilm(*device, plain) == expected);
