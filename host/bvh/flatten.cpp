@@ -67,7 +67,8 @@ Flat flattenLeaf(uint first, uint count, const Flattening& work)
         grow(flat, left, right);
         return flat;
     }
-    flat.ref = REF_LEAF | (static_cast<uint>(bvh.primitives.size()) << LEAF_COUNT_BITS) | (count - 1);
+    flat.ref =
+        REF_LEAF | (static_cast<uint>(bvh.primitives.size()) << LEAF_COUNT_BITS) | (count - 1);
     for (uint number : numbers) {
         grow(flat.box, work.boxes[number]);
         bvh.primitives.push_back(work.items.primitives[number]);

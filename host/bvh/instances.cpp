@@ -48,8 +48,7 @@ float withoutDenormals(double value)
 
 vec3 rowOf(const glm::dmat3& m, int row)
 {
-    return {withoutDenormals(m[0][row]), withoutDenormals(m[1][row]),
-            withoutDenormals(m[2][row])};
+    return {withoutDenormals(m[0][row]), withoutDenormals(m[1][row]), withoutDenormals(m[2][row])};
 }
 
 float below(double value)
@@ -83,19 +82,20 @@ DoubleBox exactBox(const Placement& placement, const Box& box)
 /// How far, on each axis of the world, the ray that the device intersects with the object may be
 /// beside the real one, where it meets the object.
 ///
-/// With A = toObject, M its inverse, and the ray o + t d, the device computes o' = A (o - T) and d' = A d.
-/// Each component is off by at most 4 roundings (2^-24) of the sum of its terms' sizes, so that on the
-/// ray at t they are 4 of |A| (|o - T| + |t d|); as t d leads from o to the object, that is at most 4
-/// of |A| 3 r, with r = reach + |T| bounding o - T and the object's own extent. Storing A and M in float
-/// adds 1 of each. Then the tests in the object's space take the ray to be beside where it is by as
-/// much as a WIDENING of their largest coordinate (traverse.glsl). Both come back to the world by |M|.
+/// With A = toObject, M its inverse, and the ray o + t d, the device computes o' = A (o - T) and d'
+/// = A d. Each component is off by at most 4 roundings (2^-24) of the sum of its terms' sizes, so
+/// that on the ray at t they are 4 of |A| (|o - T| + |t d|); as t d leads from o to the object,
+/// that is at most 4 of |A| 3 r, with r = reach + |T| bounding o - T and the object's own extent.
+/// Storing A and M in float adds 1 of each. Then the tests in the object's space take the ray to be
+/// beside where it is by as much as a WIDENING of their largest coordinate (traverse.glsl). Both
+/// come back to the world by |M|.
 glm::dvec3 slackOf(const Placement& placement, const Box& object, double reach)
 {
     const glm::dmat3 toObject = absolute(glm::inverse(placement.linear));
     const glm::dvec3 r = glm::abs(placement.translation) + reach;
     const glm::dvec3 byMap = toObject * r * (3 * 8 * ROUNDING);
-    const glm::dvec3 extent = glm::max(glm::abs(glm::dvec3(object.lo)),
-                                       glm::abs(glm::dvec3(object.hi)));
+    const glm::dvec3 extent =
+        glm::max(glm::abs(glm::dvec3(object.lo)), glm::abs(glm::dvec3(object.hi)));
     const double byTests = (largest(toObject * r) + largest(extent)) * double{BOX_WIDENING};
     return absolute(placement.linear) * (byMap + byTests);
 }
@@ -127,8 +127,8 @@ uint appendTree(const Bvh& tree, Bvh& all)
 struct ObjectTrees {
     std::vector<Bvh> trees;  ///< one for each object; empty when it is not placed
     std::vector<Box> boxes;
-    uint32_t depth = 0;  ///< of the deepest
-    uint64_t stored = 0; ///< primitives
+    uint32_t depth = 0;   ///< of the deepest
+    uint64_t stored = 0;  ///< primitives
 };
 
 ObjectTrees buildObjects(std::span<const std::vector<Primitive>> objects,
@@ -215,7 +215,8 @@ ObjectInstance makeInstance(const Placement& placement, const Box& object, doubl
         instance.lo[axis] = below(exact.lo[axis] - slack[axis]);
         instance.hi[axis] = above(exact.hi[axis] + slack[axis]);
         if (!std::isfinite(instance.lo[axis]) || !std::isfinite(instance.hi[axis])) {
-            throw badInput("an instance reaches outside the range of numbers; scale the scene down");
+            throw badInput(
+                "an instance reaches outside the range of numbers; scale the scene down");
         }
     }
     return instance;
@@ -235,7 +236,8 @@ Bvh buildTwoLevels(std::span<const Primitive> primitives,
                        primitives.size() + built.stored, MAX_PRIMITIVES);
     }
 
-    for (const Primitive& primitive : primitives) reach = std::max(reach, reachOf(extentOf(primitive)));
+    for (const Primitive& primitive : primitives)
+        reach = std::max(reach, reachOf(extentOf(primitive)));
     for (const Placement& placement : placements) {
         if (objects[placement.object].empty()) continue;
         reach = std::max(reach, reachOf(placedBox(placement, built.boxes[placement.object])));
@@ -247,8 +249,8 @@ Bvh buildTwoLevels(std::span<const Primitive> primitives,
     uint64_t number = primitives.size();
     for (const Placement& placement : placements) {
         if (objects[placement.object].empty()) continue;
-        ObjectInstance& instance = instances.emplace_back(
-            makeInstance(placement, built.boxes[placement.object], reach));
+        ObjectInstance& instance =
+            instances.emplace_back(makeInstance(placement, built.boxes[placement.object], reach));
         instance.firstNumber = static_cast<uint>(number);
         number += objects[placement.object].size();
         instanceBoxes.push_back({instance.lo, instance.hi});

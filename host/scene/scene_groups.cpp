@@ -1,8 +1,8 @@
 // Groups of scene files: collections with a transform, and shared ones that instances place.
 //
-// A shape "group" is flattened while it is read: its shapes become the world's. An entry of "groups" is
-// read once into an object of its own; what is nested in it are instances of other objects, so that
-// placing it places all of them: two levels, however deep the file.
+// A shape "group" is flattened while it is read: its shapes become the world's. An entry of
+// "groups" is read once into an object of its own; what is nested in it are instances of other
+// objects, so that placing it places all of them: two levels, however deep the file.
 #include "scene/scene_reading.h"
 
 namespace sahl {
@@ -18,7 +18,8 @@ void readShapes(SceneReading& reading, const JsonObject& object)
         readShape(reading, shape);
 }
 
-/// Counts those inside shared groups too: each of them is stored once more where the group is placed.
+/// Counts those inside shared groups too: each of them is stored once more where the group is
+/// placed.
 void addPlacement(SceneReading& reading, const JsonObject& shape, const Placement& placement)
 {
     if (!isPlaceable(placement)) {
@@ -49,9 +50,9 @@ void requireNoCycle(const SceneReading& reading, const std::string& name, const 
 {
     for (const std::string& open : reading.openGroups) {
         if (open == name) {
-            throw errorAt(reading.document, place,
-                          fmt::format("group \"{}\" contains itself: {}", name,
-                                      chainOf(reading, name)));
+            throw errorAt(
+                reading.document, place,
+                fmt::format("group \"{}\" contains itself: {}", name, chainOf(reading, name)));
         }
     }
     if (reading.openGroups.size() >= MAX_GROUP_DEPTH) {

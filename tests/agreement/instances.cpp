@@ -1,5 +1,5 @@
-// What rays meet in instances: closed objects let no ray through, rays that leave a surface do not meet
-// it again where they started, and an instance looks like the mesh moved to the world by hand.
+// What rays meet in instances: closed objects let no ray through, rays that leave a surface do not
+// meet it again where they started, and an instance looks like the mesh moved to the world by hand.
 #include "agreement/placements.h"
 #include "scene/scene.h"
 #include "util/error.h"
@@ -20,7 +20,8 @@ Bvh placedAlone(const std::vector<Primitive>& object, const Placement& placement
     return buildTwoLevels({}, {&object, 1}, {&placement, 1}, REACH, BvhBuild::sweep, 1);
 }
 
-/// Rays from within a closed object, a third of them in any direction, the others at corners and edges.
+/// Rays from within a closed object, a third of them in any direction, the others at corners and
+/// edges.
 uint64_t leaksOf(const std::vector<Primitive>& hull, const Placement& placement, size_t count,
                  Random& random)
 {
@@ -92,8 +93,8 @@ TEST(Instances, showTheirFrontToRaysFromOutside)
     EXPECT_EQ(seen, 500);
 }
 
-/// A mesh of smooth normals as an instance and moved to the world while reading: positions, normals,
-/// distances and sides agree.
+/// A mesh of smooth normals as an instance and moved to the world while reading: positions,
+/// normals, distances and sides agree.
 TEST(Instances, lookLikeTheMeshMovedToTheWorld)
 {
     int compared = 0;
@@ -149,8 +150,8 @@ TEST(Instances, makeEllipsoidsOfSpheres)
         ASSERT_NE(hit.slot, NO_HIT);
         const auto isect = kernel.interactionAt(hit, ray.org, ray.dir);
         const glm::dmat3 toObject = glm::inverse(placement.linear);
-        const glm::dvec3 arm = toObject * (glm::dvec3(isect.p) - placement.translation) -
-                               glm::dvec3(object[0].p0);
+        const glm::dvec3 arm =
+            toObject * (glm::dvec3(isect.p) - placement.translation) - glm::dvec3(object[0].p0);
         EXPECT_NEAR(glm::length(arm), 1.5, 1e-3);
         const glm::dvec3 gradient = glm::normalize(glm::transpose(toObject) * arm);
         EXPECT_LT(glm::length(glm::dvec3(isect.ng) - gradient), 1e-3);
@@ -213,7 +214,8 @@ Primitive anyShape(bool sphere, Random& random)
     return shape;
 }
 
-/// Scales of the axes are between 10^lowest and 10^highest, all times one of 10^-common to 10^common.
+/// Scales of the axes are between 10^lowest and 10^highest, all times one of 10^-common to
+/// 10^common.
 void expectNoSelfHits(bool sphere, double lowest, double highest, double common, size_t count)
 {
     SpawnCounts counts;
@@ -230,8 +232,8 @@ void expectNoSelfHits(bool sphere, double lowest, double highest, double common,
     EXPECT_GT(counts.spawned, count * 8 / 10);
 }
 
-// Thin and pointed ellipsoids are left to the pictures: where the surface bends more than once within
-// the offset, which a rounding of the coordinates decides, there is no right answer.
+// Thin and pointed ellipsoids are left to the pictures: where the surface bends more than once
+// within the offset, which a rounding of the coordinates decides, there is no right answer.
 void expectNoSelfHits(size_t count)
 {
     expectNoSelfHits(false, -0.5, 0.5, 0, count);

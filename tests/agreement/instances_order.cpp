@@ -1,5 +1,5 @@
-// The closest hit of a scene with instances is the same bits whatever the trees and the order in which
-// they are walked: brute force over all primitives of all instances is the witness.
+// The closest hit of a scene with instances is the same bits whatever the trees and the order in
+// which they are walked: brute force over all primitives of all instances is the witness.
 #include "agreement/placements.h"
 #include "util/parallel.h"
 
@@ -46,7 +46,8 @@ Traversal bruteForce(reference::Kernel<>& kernel, const PlacedScene& scene, cons
     for (uint i = 0; i < scene.placements.size(); i++) {
         const ObjectInstance& instance = kernel.instances[i];
         float entry;
-        if (!kernel.intersectBox(inWorld.boxes, instance.lo, instance.hi, INFINITE, entry)) continue;
+        if (!kernel.intersectBox(inWorld.boxes, instance.lo, instance.hi, INFINITE, entry))
+            continue;
         walk.inside = i;
         const auto inside = kernel.walkRayInside(instance, ray.org, ray.dir, entry);
         const uint object = scene.placements[i].object;
@@ -95,10 +96,10 @@ bool agrees(const Bvh& bvh, const Ray& ray, const Traversal& truth)
 
 void expectSameBits(const PlacedScene& scene, std::span<const Ray> rays, double reach)
 {
-    const Bvh sweep = buildTwoLevels(scene.world, scene.objects, scene.placements, reach,
-                                     BvhBuild::sweep, 1);
-    const Bvh binned = buildTwoLevels(scene.world, scene.objects, scene.placements, reach,
-                                      BvhBuild::binned, 1);
+    const Bvh sweep =
+        buildTwoLevels(scene.world, scene.objects, scene.placements, reach, BvhBuild::sweep, 1);
+    const Bvh binned =
+        buildTwoLevels(scene.world, scene.objects, scene.placements, reach, BvhBuild::binned, 1);
     const BruteScene brute = bruteSceneOf(scene, sweep);
     std::atomic<uint64_t> differing = 0, hits = 0, hitsInside = 0;
     constexpr size_t CHUNK = 256;
@@ -121,8 +122,8 @@ void expectSameBits(const PlacedScene& scene, std::span<const Ray> rays, double 
     EXPECT_GT(hitsInside, rays.size() / 20);
 }
 
-/// A few objects, spheres among them, placed in all ways; every third instance twice at one place, so
-/// that ties are decided between instances.
+/// A few objects, spheres among them, placed in all ways; every third instance twice at one place,
+/// so that ties are decided between instances.
 PlacedScene anyScene(double lowest, double highest, Random& random)
 {
     PlacedScene scene;
@@ -193,7 +194,8 @@ TEST(TwoLevels, instancesAreReferencesOfTheirOwn)
     std::vector<uint> seen;
     for (const BvhNode& node : bvh.nodes) {
         for (uint ref : {node.ref0, node.ref1}) {
-            if ((ref & REF_LEAF) == 0 && (ref & REF_INSTANCE) != 0) seen.push_back(ref & ~REF_INSTANCE);
+            if ((ref & REF_LEAF) == 0 && (ref & REF_INSTANCE) != 0)
+                seen.push_back(ref & ~REF_INSTANCE);
         }
     }
     std::sort(seen.begin(), seen.end());
@@ -229,7 +231,8 @@ TEST(TwoLevels, stayWithinTheStackWhateverTheInput)
     PlacedScene scene;
     scene.objects.resize(1);
     for (uint i = 0; i < 3000; i++)
-        addTriangle(scene.objects[0], {0, 0, 0}, {1, 0, 0}, {0, std::ldexp(1.0f, -int(i % 100)), 0});
+        addTriangle(scene.objects[0], {0, 0, 0}, {1, 0, 0},
+                    {0, std::ldexp(1.0f, -int(i % 100)), 0});
     for (uint i = 0; i < 3000; i++) {
         Placement placement;
         placement.translation = {std::ldexp(1.0, -int(i % 90)), 0, 0};

@@ -26,5 +26,6 @@ inline void PrintTo(const Term& term, std::ostream* out)
 std::vector<Term> materialTerms();
 std::vector<Term> lightTerms();   ///< lamps, probes
 std::vector<Term> cameraTerms();  ///< cameras, shapes
+std::vector<Term> instanceTerms();
 
 }  // namespace sahl::testing

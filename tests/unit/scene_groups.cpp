@@ -6,8 +6,8 @@
 namespace sahl::testing {
 namespace {
 
-/// A scene of the given groups and shapes, with a triangle of corners (0,0,0), (1,0,0), (0,1,0) as "T"
-/// and a unit ball as "B".
+/// A scene of the given groups and shapes, with a triangle of corners (0,0,0), (1,0,0), (0,1,0) as
+/// "T" and a unit ball as "B".
 std::string sceneOf(const std::string& groups, const std::string& shapes,
                     const std::string& rest = "")
 {
@@ -47,16 +47,16 @@ TEST(Groups, applyTheirTransformAfterThoseOfTheirShapes)
 
 TEST(Groups, thatMirrorKeepFrontsInFront)
 {
-    const Scene scene = loadJson(sceneOf(
-        "", R"({ "type": "group", "transform": { "scale": [-1,1,1] }, "shapes": [@T] })"));
+    const Scene scene = loadJson(
+        sceneOf("", R"({ "type": "group", "transform": { "scale": [-1,1,1] }, "shapes": [@T] })"));
     const Primitive& t = scene.primitives.at(0);
     EXPECT_GT(glm::cross(t.p1 - t.p0, t.p2 - t.p0).z, 0);
 }
 
 TEST(Instances, shareTheirGroup)
 {
-    const Scene scene = loadJson(sceneOf(
-        ONE, R"(@T, { "type": "instance", "of": "one" }, { "type": "instance", "of": "one",
+    const Scene scene = loadJson(
+        sceneOf(ONE, R"(@T, { "type": "instance", "of": "one" }, { "type": "instance", "of": "one",
                 "material": "red", "transform": { "scale": [2,3,4], "translate": [5,6,7] } })"));
     EXPECT_EQ(scene.primitives.size(), 1u);
     ASSERT_EQ(scene.objects.size(), 1u);
@@ -74,14 +74,16 @@ TEST(Instances, shareTheirGroup)
 
 TEST(Instances, ofNestedGroupsAreInstancesOfTheWorld)
 {
-    const std::string groups = std::string(ONE) + R"(, "two": { "shapes": [
-        { "type": "instance", "of": "one", )" + move(1, 0, 0) +
-                               R"( }, { "type": "instance", "of": "one", "material": "red" }, @B ] },
+    const std::string groups =
+        std::string(ONE) + R"(, "two": { "shapes": [
+        { "type": "instance", "of": "one", )" +
+        move(1, 0, 0) +
+        R"( }, { "type": "instance", "of": "one", "material": "red" }, @B ] },
         "four": { "shapes": [ { "type": "group", )" +
-                               move(0, 10, 0) + R"(, "shapes": [ { "type": "instance", "of": "two" } ] },
+        move(0, 10, 0) + R"(, "shapes": [ { "type": "instance", "of": "two" } ] },
         { "type": "instance", "of": "two" } ] })";
-    const Scene scene = loadJson(sceneOf(
-        groups, R"({ "type": "instance", "of": "four", "transform": { "scale": 2 } })"));
+    const Scene scene = loadJson(
+        sceneOf(groups, R"({ "type": "instance", "of": "four", "transform": { "scale": 2 } })"));
     EXPECT_EQ(scene.objects.size(), 2u);
     ASSERT_EQ(scene.instances.size(), 6u);
     std::vector<glm::dvec3> at;
@@ -98,7 +100,8 @@ TEST(Instances, ofNestedGroupsAreInstancesOfTheWorld)
 
 TEST(Instances, materialOfTheOuterOneCounts)
 {
-    const std::string groups = std::string(ONE) +
+    const std::string groups =
+        std::string(ONE) +
         R"(, "two": { "shapes": [ { "type": "instance", "of": "one", "material": "red" } ] })";
     const Scene scene = loadJson(sceneOf(groups, R"({ "type": "instance", "of": "two" },
         { "type": "instance", "of": "two", "material": "red" })"));
@@ -110,7 +113,8 @@ TEST(Instances, groupsAreReadWhateverTheirOrder)
 {
     const std::string groups =
         R"("a": { "shapes": [ { "type": "instance", "of": "z" } ] }, "z": { "shapes": [@T] })";
-    EXPECT_EQ(loadJson(sceneOf(groups, R"({ "type": "instance", "of": "a" })")).instances.size(), 1u);
+    EXPECT_EQ(loadJson(sceneOf(groups, R"({ "type": "instance", "of": "a" })")).instances.size(),
+              1u);
 }
 
 TEST(Instances, cameraFocusesOnTheMiddleOfNamedOnesAndOfGroups)
@@ -122,7 +126,8 @@ TEST(Instances, cameraFocusesOnTheMiddleOfNamedOnesAndOfGroups)
             move(0, 1, -3) + R"( }, { "type": "sphere", "center": [0, -1, -3] } ] })";
         const std::string camera =
             fmt::format(R"(, "camera": {{ "eye": [0,0,5], "lookAt": [0,0,0], "lensRadius": 0.1,
-                "focusOn": "{}" }})", name);
+                "focusOn": "{}" }})",
+                        name);
         const Scene scene = loadJson(sceneOf(R"("ball": { "shapes": [@B] })", shapes, camera));
         EXPECT_NEAR(scene.camera.focusDistance, 8, 1e-5) << name;
     }
@@ -130,9 +135,9 @@ TEST(Instances, cameraFocusesOnTheMiddleOfNamedOnesAndOfGroups)
 
 TEST(Instances, areFramedWhereThereIsNoCamera)
 {
-    const Scene scene = loadJson(sceneOf(R"("ball": { "shapes": [@B] })",
-                                         R"({ "type": "instance", "of": "ball", )" +
-                                             move(100, 0, 0) + " }"));
+    const Scene scene =
+        loadJson(sceneOf(R"("ball": { "shapes": [@B] })",
+                         R"({ "type": "instance", "of": "ball", )" + move(100, 0, 0) + " }"));
     const glm::dvec3 way = glm::dvec3(100, 0, 0) - glm::dvec3(scene.camera.position);
     EXPECT_GT(glm::dot(glm::normalize(way), glm::dvec3(scene.camera.forward)), 0.999);
 }
@@ -151,12 +156,16 @@ TEST(Instances, chainsAreBounded)
 {
     std::string groups = R"("g0": { "shapes": [@T] })";
     for (int i = 1; i <= 40; i++) {
-        groups = fmt::format(R"("g{}": {{ "shapes": [ {{ "type": "instance", "of": "g{}" }} ] }}, )",
-                             i, i - 1) + groups;
+        groups =
+            fmt::format(R"("g{}": {{ "shapes": [ {{ "type": "instance", "of": "g{}" }} ] }}, )", i,
+                        i - 1) +
+            groups;
     }
     // The last is read first: its name comes first in the alphabet only for some, so ask for it.
     EXPECT_CONTAINS(errorOfJson(sceneOf(groups + R"(, "a": { "shapes": [
-        { "type": "instance", "of": "g40" } ] })", "")), "nested more than 32 deep");
+        { "type": "instance", "of": "g40" } ] })",
+                                        "")),
+                    "nested more than 32 deep");
 }
 
 TEST(Instances, tooManyAreRefused)
@@ -164,8 +173,7 @@ TEST(Instances, tooManyAreRefused)
     // Each of 21 groups places the one before twice: 2^21 triangles in the end.
     std::string groups = R"("g00": { "shapes": [@T] })";
     for (int i = 1; i <= 21; i++) {
-        const std::string inner =
-            fmt::format(R"({{ "type": "instance", "of": "g{:02}" }})", i - 1);
+        const std::string inner = fmt::format(R"({{ "type": "instance", "of": "g{:02}" }})", i - 1);
         groups += fmt::format(R"(, "g{:02}": {{ "shapes": [ {}, {} ] }})", i, inner, inner);
     }
     EXPECT_CONTAINS(errorOfJson(sceneOf(groups, "")), "more than 1048576 instances");
@@ -181,15 +189,19 @@ TEST(Instances, mistakesAreRefusedWithTheirPlace)
     EXPECT_CONTAINS(error(R"({ "type": "instance", "of": "one", "material": "rad" })"),
                     "did you mean \"red\"?");
     EXPECT_CONTAINS(error(R"({ "type": "instance", "of": "one",
-        "transform": { "scale": [1, 0, 1] } })"), "cannot be inverted");
+        "transform": { "scale": [1, 0, 1] } })"),
+                    "cannot be inverted");
     EXPECT_CONTAINS(error(R"({ "type": "instance", "of": "one",
-        "transform": { "matrix": [1,2,3,0, 2,4,6,0, 0,0,1,0, 0,0,0,1] } })"), "cannot be inverted");
-    EXPECT_CONTAINS(error(R"({ "type": "instance", "of": "one", "transform": { "scale": 1e-10 } })"),
-                    "stretched or shrunk by more than 1e+09");
+        "transform": { "matrix": [1,2,3,0, 2,4,6,0, 0,0,1,0, 0,0,0,1] } })"),
+                    "cannot be inverted");
+    EXPECT_CONTAINS(
+        error(R"({ "type": "instance", "of": "one", "transform": { "scale": 1e-10 } })"),
+        "stretched or shrunk by more than 1e+09");
     EXPECT_CONTAINS(error(R"({ "type": "group", "shapes": {} })"), "must be an array");
     EXPECT_CONTAINS(error(R"({ "type": "group", "material": "red", "shapes": [] })"),
                     "unknown key \"material\"");
-    EXPECT_CONTAINS(errorOfJson(sceneOf(R"("x": { "shape": [] })", "")), "did you mean \"shapes\"?");
+    EXPECT_CONTAINS(errorOfJson(sceneOf(R"("x": { "shape": [] })", "")),
+                    "did you mean \"shapes\"?");
     EXPECT_CONTAINS(errorOfJson(sceneOf(R"("x": {})", "")), "lacks the key \"shapes\"");
     EXPECT_CONTAINS(errorOfJson(sceneOf(R"("": { "shapes": [] })", "")), "a group needs a name");
     EXPECT_CONTAINS(errorOfJson(R"({ "groups": [] })"), "\"groups\" must be an object");
@@ -198,17 +210,20 @@ TEST(Instances, mistakesAreRefusedWithTheirPlace)
 TEST(Groups, thatFlattenTogetherAreRefused)
 {
     const std::string tiny = R"("transform": { "scale": 1e-200 }, "shapes": [ )";
-    const std::string shapes = R"({ "type": "group", )" + tiny + R"({ "type": "group", )" + tiny +
-                               "@T ] } ] }";
+    const std::string shapes =
+        R"({ "type": "group", )" + tiny + R"({ "type": "group", )" + tiny + "@T ] } ] }";
     EXPECT_CONTAINS(errorOfJson(sceneOf("", shapes)), "cannot be inverted");
 }
 
 TEST(Groups, thatScaleASphereUnevenlySayWhatToUse)
 {
     EXPECT_CONTAINS(errorOfJson(sceneOf("", R"({ "type": "group", "transform": { "scale": [1,2,1] },
-        "shapes": [@B] })")), "use an \"instance\" of a group with the sphere");
+        "shapes": [@B] })")),
+                    "use an \"instance\" of a group with the sphere");
     EXPECT_EQ(loadJson(sceneOf(R"("b": { "shapes": [@B] })", R"({ "type": "instance", "of": "b",
-        "transform": { "scale": [1,2,1] } })")).instances.size(), 1u);
+        "transform": { "scale": [1,2,1] } })"))
+                  .instances.size(),
+              1u);
 }
 
 /// Names inside of shared groups may repeat: they have no one place.
