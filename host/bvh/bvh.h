@@ -24,7 +24,7 @@ struct BvhStatistics {
     double sahCost = 0;        ///< expected box and primitive tests of a random ray that hits the
                                ///< root's box; 0 when that has no area
     uint64_t primitivesSeen = 0;  ///< by rays: those of an object once for each of its instances
-    double seconds = 0;        ///< to build
+    double seconds = 0;           ///< to build
     BvhBuild build = BvhBuild::sweep;
 };
 

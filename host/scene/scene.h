@@ -42,7 +42,7 @@ struct Scene {
     std::string name;  ///< for messages: the file, or "built-in ..."
     RenderSettings settings;
     std::vector<Primitive> primitives;
-    std::vector<uint32_t> objectStarts;  ///< number of the first primitive of each shape
+    std::vector<uint32_t> objectStarts;           ///< number of the first primitive of each shape
     std::vector<std::vector<Primitive>> objects;  ///< that instances share; in spaces of their own,
                                                   ///< objects[k][i].number == i
     std::vector<Placement> instances;

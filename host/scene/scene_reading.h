@@ -31,7 +31,7 @@ struct SceneReading {
     std::map<std::string, const JsonNode*> groupNodes = {};  ///< the entries of "groups"
     std::map<std::string, SharedGroup> groups = {};          ///< those that are read
     std::vector<std::string> openGroups = {};                ///< those being read, outermost first
-    uint64_t placements = 0;                                 ///< made so far, in groups and in the world
+    uint64_t placements = 0;  ///< made so far, in groups and in the world
 };
 
 /// Adds the entries of "materials" to the scene.

@@ -274,10 +274,9 @@ Transform readRotation(const JsonDocument& document, const JsonNode& node, const
 void readShape(SceneReading& reading, const JsonNode& node)
 {
     const JsonDocument& document = reading.document;
-    const std::string type =
-        readType(document, node, "a shape",
-                 {"mesh", "triangles", "teapot", "sphere", "sphereMesh", "rectangle", "disk", "group",
-                  "instance"});
+    const std::string type = readType(document, node, "a shape",
+                                      {"mesh", "triangles", "teapot", "sphere", "sphereMesh",
+                                       "rectangle", "disk", "group", "instance"});
     const JsonObject shape(document, node, fmt::format("the shape \"{}\"", type), type);
     const std::string name = fmt::format("{}: {}", document.where(node.offset), shape.what());
     const size_t firstPrimitive = reading.scene.primitives.size();

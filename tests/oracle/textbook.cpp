@@ -112,8 +112,8 @@ Vec coordinates(Vec x, Vec y, Vec z, Vec v)
             dot(x, cross(y, v)) / volume};
 }
 
-/// The sphere's equation for the ray as it is before the map; the map keeps t. A normal n becomes the
-/// m with m . (M q) = n . q for all q, whose components are the coordinates' transposed.
+/// The sphere's equation for the ray as it is before the map; the map keeps t. A normal n becomes
+/// the m with m . (M q) = n . q for all q, whose components are the coordinates' transposed.
 void intersect(const Ray& ray, const PlacedSphere& placed, Hit& hit)
 {
     Vec from = coordinates(placed.x, placed.y, placed.z, ray.origin - placed.origin);
