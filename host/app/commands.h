@@ -11,6 +11,7 @@ namespace sahl {
 using Command = std::function<int()>;
 
 Command addRenderCommand(CLI::App& app);
+Command addTonemapCommand(CLI::App& app);
 Command addVerifyCommand(CLI::App& app);
 Command addDevicesCommand(CLI::App& app);
 

@@ -50,10 +50,11 @@ int run(int argc, char** argv)
         "  sahl render scenes/default/default.json -o teapot.png -o teapot.exr\n"
         "  sahl verify                     # does this machine's driver compute the right bits?");
     std::map<std::string, Command> commands = {{"render", addRenderCommand(app)},
+                                               {"tonemap", addTonemapCommand(app)},
                                                {"verify", addVerifyCommand(app)},
                                                {"devices", addDevicesCommand(app)}};
     if (argc < 2) {
-        say("usage: sahl render|verify|devices [options]\ntry: sahl --help\n");
+        say("usage: sahl render|tonemap|verify|devices [options]\ntry: sahl --help\n");
         return static_cast<int>(ErrorKind::usage);
     }
     app.require_subcommand(1);

@@ -1,6 +1,7 @@
 #include "app/options.h"
 
 #include "app/option_kinds.h"
+#include "app/shading_options.h"
 #include "film/film.h"
 #include "util/error.h"
 #include "util/memory.h"
@@ -54,6 +55,8 @@ void addSceneOptions(CLI::App& command, CommonOptions& options)
     addNumber(command, "--max-bounces", scene.maxBounces, {0, 65535}, "scatterings of a path",
               SCENES)
         ->group("Picture");
+
+    addShadingOptions(command, scene);
 
     addPath(command, "--probe", scene.probe, "light probe: EXR, HDR or PFM", SCENES)
         ->group("Scene");
@@ -151,9 +154,10 @@ std::unique_ptr<Device> openDeviceFor(const CommonOptions& options)
 
 void requireFilmMemory(const RenderSettings& settings, unsigned films)
 {
-    // Sums of both halves, digests, the blocks of a pass; and at last two pictures and their files.
-    constexpr uint64_t FILM = 2 * sizeof(HalfPixel) + sizeof(uint32_t) + sizeof(PixelBlock);
-    constexpr uint64_t PICTURES = 4 * 3 * sizeof(float);
+    // The film, the blocks of a pass; and at last two pictures, the four layers of
+    // statistics, and their files.
+    constexpr uint64_t FILM = filmBytes(1, 1) + sizeof(PixelBlock);
+    constexpr uint64_t PICTURES = (4 * 3 + 4) * sizeof(float);
     uint64_t pixels = uint64_t{settings.width} * settings.height;
     requireMemory(pixels * (FILM * films + PICTURES),
                   fmt::format("a picture of {} x {} pixels", settings.width, settings.height),

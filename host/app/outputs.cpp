@@ -45,6 +45,18 @@ void checkPicturePaths(const std::vector<fs::path>& paths)
     }
 }
 
+void checkPngPath(const std::string& option, const fs::path& path, const std::vector<fs::path>& others)
+{
+    if (extensionOf(path) != ".png") {
+        throw usageError("{} '{}': the name must end in .png", option, path.string());
+    }
+    for (const fs::path& other : others) {
+        if (other.lexically_normal() != path.lexically_normal()) continue;
+        throw usageError("{}: is written already; name another file for {}", path.string(), option);
+    }
+    requireWritable(path);
+}
+
 void refuseToReplaceInputs(const std::vector<fs::path>& outputs)
 {
     for (const fs::path& output : outputs) {
@@ -60,7 +72,7 @@ void refuseToReplaceInputs(const std::vector<fs::path>& outputs)
 }
 
 void writeImage(const Image& image, const OutputOptions& options, const fs::path& path,
-                const ImageMetadata& metadata, const std::vector<ImageChannel>& channels)
+                const ImageMetadata& metadata, std::span<const ImageChannel> channels)
 {
     std::string extension = extensionOf(path);
     if (extension == ".exr") {
@@ -68,13 +80,12 @@ void writeImage(const Image& image, const OutputOptions& options, const fs::path
     } else if (extension == ".pfm") {
         writeFileAtomically(path, encodePfm(image));
     } else {
-        writeFileAtomically(path,
-                            encodePng(toneMap(image, options.toneMap, options.exposure), metadata));
+        writeFileAtomically(path, encodePng(toneMap(image, options.tone.map), metadata));
     }
 }
 
 void writeOutputs(const Film& film, const OutputOptions& options, const ImageMetadata& metadata,
-                  const std::vector<ImageChannel>& channels)
+                  std::span<const ImageChannel> channels)
 {
     Image image = meanImage(film);
     std::optional<Error> failure;

@@ -1,9 +1,11 @@
 // The pictures that a command writes.
 #pragma once
 
+#include "app/tone_options.h"
 #include "film/film.h"
 #include "util/files.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,14 +13,17 @@ namespace sahl {
 
 struct OutputOptions {
     std::vector<fs::path> paths;  ///< .exr, .pfm (linear) or .png (tone mapped)
-    ToneMap toneMap = ToneMap::percentile;
+    ToneOptions tone;
     bool firstHits = false;  ///< albedo, normals, depth and so on as layers of EXR files
-    float exposure = 0;  ///< [stops]
 };
 
 /// Refuses pictures that cannot be written, before anything is read or rendered: unknown extensions
 /// (usage), unwritable files (cannotWrite).
 void checkPicturePaths(const std::vector<fs::path>& paths);
+
+/// Refuses `path` unless it ends in .png (usage), cannot be written (cannotWrite), or is one of
+/// `others` (usage). `option` is what it was given by.
+void checkPngPath(const std::string& option, const fs::path& path, const std::vector<fs::path>& others);
 
 /// Refuses outputs that are files which were read so far: writing would destroy them (usage).
 void refuseToReplaceInputs(const std::vector<fs::path>& outputs);
@@ -26,12 +31,12 @@ void refuseToReplaceInputs(const std::vector<fs::path>& outputs);
 /// Writes a picture, in the format that the extension names.
 ///   channels  beside the picture, in an EXR only
 void writeImage(const Image& image, const OutputOptions& options, const fs::path& path,
-                const ImageMetadata& metadata, const std::vector<ImageChannel>& channels = {});
+                const ImageMetadata& metadata, std::span<const ImageChannel> channels = {});
 
 /// Writes the film's mean picture to every path, each file complete or not at all. When one fails
 /// the others are still written; then the first failure is thrown. A linear picture that none of
 /// them holds is then put into the folder for temporary files, and the failure's text says so.
 void writeOutputs(const Film& film, const OutputOptions& options, const ImageMetadata& metadata,
-                  const std::vector<ImageChannel>& channels);
+                  std::span<const ImageChannel> channels);
 
 }  // namespace sahl

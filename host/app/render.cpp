@@ -2,15 +2,18 @@
 
 #include "render/render.h"
 #include "app/commands.h"
+#include "app/map_options.h"
 #include "app/option_kinds.h"
 #include "app/options.h"
 #include "app/outputs.h"
 #include "app/progress.h"
+#include "app/shading_options.h"
 #include "app/stats.h"
 #include "film/layers.h"
 #include "render/prepare.h"
 #include "sahl_version.h"
 #include "util/error.h"
+#include "util/gzip.h"
 #include "util/interrupt.h"
 #include "util/messages.h"
 
@@ -24,6 +27,7 @@ namespace {
 struct RenderOptions {
     CommonOptions common;
     OutputOptions output;
+    MapOptions maps;
     std::string statsPath;
 };
 
@@ -39,19 +43,7 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->group("Output");
-    addChoice(
-        command, "--tone-map", output.toneMap,
-        {{"percentile", ToneMap::percentile}, {"naive", ToneMap::naive}, {"srgb", ToneMap::srgb}},
-        "percentile (5-95), naive (min-max) or srgb")
-        ->group("Output");
-    auto setExposure = [&output](const std::string& text) {
-        output.exposure = static_cast<float>(parseReal("--exposure", text, -100, 100));
-    };
-    command
-        .add_option_function<std::string>(
-            "--exposure", setExposure, withDefault("for --tone-map srgb [stops], -100 to 100", "0"))
-        ->type_name("X")
-        ->group("Output");
+    addToneOptions(command, "--tone-map", output.tone);
     addFlag(command, "--aovs", output.firstHits,
             "albedo, normals, depth, position and ids as layers of\nevery .exr (docs/exr.md)")
         ->group("Output");
@@ -65,7 +57,7 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
 void chooseDefaultOutputs(RenderOptions& options)
 {
     if (!options.output.paths.empty()) return;
-    fs::path stem = fs::path(options.common.scenePath).stem();
+    fs::path stem = withoutGz(options.common.scenePath).stem();
     if (stem.empty()) throw usageError("name an output with -o");
     options.output.paths = {stem.string() + ".exr", stem.string() + ".png"};
 }
@@ -73,8 +65,18 @@ void chooseDefaultOutputs(RenderOptions& options)
 /// Refuses outputs that cannot be written, before anything is read. Returns all of them.
 std::vector<fs::path> checkOutputs(const RenderOptions& options)
 {
+    checkToneOptions(options.output.tone);
+    checkMapOptions(options.maps);
     std::vector<fs::path> outputs = options.output.paths;
     checkPicturePaths(outputs);
+    for (const MapOptions::Request& map : options.maps.maps) {
+        checkPngPath("--map", map.path, outputs);
+        outputs.push_back(map.path);
+    }
+    if (!options.output.tone.histogram.empty()) {
+        checkPngPath("--histogram", options.output.tone.histogram, outputs);
+        outputs.push_back(options.output.tone.histogram);
+    }
     if (options.statsPath.empty()) return outputs;
     if (std::find(outputs.begin(), outputs.end(), options.statsPath) != outputs.end()) {
         throw usageError("{}: is a picture to write; name another file for --stats",
@@ -90,7 +92,7 @@ std::vector<fs::path> checkOutputs(const RenderOptions& options)
 std::vector<ImageChannel> firstHitLayers(const RenderOptions& options, const PreparedScene& prepared,
                                          Device& device)
 {
-    if (!options.output.firstHits) return {};
+    if (!options.output.firstHits && !needFirstHits(options.maps)) return {};
     const RenderSettings& settings = prepared.scene.settings;
     uint32_t samples = std::min(BLOCK_SIZE, settings.spp);
     return firstHitChannels(renderFirstHits(device, settings.width, settings.height, samples), samples,
@@ -101,19 +103,21 @@ ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_
                          const Device& device)
 {
     DeviceInfo info = device.info();
-    return {{"sahl.version", SAHL_VERSION},
-            {"sahl.scene", fs::path(scene.name).filename().string()},
-            {"sahl.integrator", scene.settings.integrator == INTEGRATOR_PHONG ? "phong" : "path"},
-            {"sahl.sampler", "independent"},
-            {"sahl.varianceOver", "samples"},
-            {"sahl.seed", std::to_string(scene.settings.seed)},
-            {"sahl.maxBounces", std::to_string(scene.settings.maxBounces)},
-            {"sahl.firstSample", "0"},
-            {"sahl.sampleCount", std::to_string(samplesTaken)},
-            {"sahl.passes", std::to_string(result.passes)},
-            {"sahl.interrupted", result.interrupted ? "yes" : "no"},
-            {"sahl.device", info.name},
-            {"sahl.driver", info.driver}};
+    ImageMetadata metadata = describeShading(scene.settings);
+    metadata.merge(ImageMetadata{{"sahl.version", SAHL_VERSION},
+                                 {"sahl.scene", fs::path(scene.name).filename().string()},
+                                 {"sahl.integrator", integratorName(scene.settings)},
+                                 {"sahl.sampler", "independent"},
+                                 {"sahl.varianceOver", "samples"},
+                                 {"sahl.seed", std::to_string(scene.settings.seed)},
+                                 {"sahl.maxBounces", std::to_string(scene.settings.maxBounces)},
+                                 {"sahl.firstSample", "0"},
+                                 {"sahl.sampleCount", std::to_string(samplesTaken)},
+                                 {"sahl.passes", std::to_string(result.passes)},
+                                 {"sahl.interrupted", result.interrupted ? "yes" : "no"},
+                                 {"sahl.device", info.name},
+                                 {"sahl.driver", info.driver}});
+    return metadata;
 }
 
 void printSummary(const RenderOptions& options, const PreparedScene& prepared,
@@ -129,6 +133,22 @@ void printSummary(const RenderOptions& options, const PreparedScene& prepared,
     if (counters.badSamples > 0) {
         warn(fmt::format("{} samples were negative or not finite and count as black",
                          counters.badSamples));
+    }
+}
+
+/// Writes all but the statistics.
+void writeAll(const RenderOptions& options, const Film& film, std::vector<ImageChannel> firstHits,
+              const ImageMetadata& metadata)
+{
+    std::vector<ImageChannel> channels = statisticsChannels(film);
+    const size_t always = channels.size();
+    std::move(firstHits.begin(), firstHits.end(), std::back_inserter(channels));
+    std::span<const ImageChannel> layers = channels;
+    if (!options.output.firstHits) layers = layers.first(always);  // the rest is for the maps
+    writeOutputs(film, options.output, metadata, layers);
+    writeMaps(options.maps, channels, film.width, film.height, metadata);
+    if (!options.output.tone.histogram.empty()) {
+        writeHistogram(meanImage(film), options.output.tone, metadata);
     }
 }
 
@@ -179,7 +199,8 @@ int runRender(RenderOptions& options)
     seconds.upload = watch.lap();
 
     const RenderSettings& settings = prepared.scene.settings;
-    std::vector<ImageChannel> channels = firstHitLayers(options, prepared, *device);
+    std::vector<ImageChannel> firstHits = firstHitLayers(options, prepared, *device);
+    seconds.firstHits = watch.lap();
     ProgressPrinter printer(options.common.progress, options.common.quiet, settings.spp);
     RenderPlan plan = {settings.width, settings.height, 0, settings.spp, options.common.tileSize};
     RenderResult result = renderPicture(
@@ -190,11 +211,9 @@ int runRender(RenderOptions& options)
     if (result.interrupted) sayInterrupted(options, settings, result);
     if (result.film.counters.cameraRays == 0) return interruptedExitCode();
 
-    std::vector<ImageChannel> statistics = statisticsChannels(result.film);
-    channels.insert(channels.end(), statistics.begin(), statistics.end());
     uint32_t samplesTaken = std::min(settings.spp, result.passes * BLOCK_SIZE);
-    writeOutputs(result.film, options.output,
-                 metadataOf(prepared.scene, result, samplesTaken, *device), channels);
+    writeAll(options, result.film, std::move(firstHits),
+             metadataOf(prepared.scene, result, samplesTaken, *device));
     seconds.write = watch.lap();
     seconds.total = watch.total();
     if (!options.statsPath.empty()) {
@@ -205,7 +224,9 @@ int runRender(RenderOptions& options)
     printSummary(options, prepared, result);
     if (options.common.verbose) printDetails(prepared, *device);
     if (!options.common.quiet) {
-        for (const fs::path& path : options.output.paths) answer("{}\n", path.string());
+        for (const fs::path& path : outputs) {
+            if (path != options.statsPath) answer("{}\n", path.string());
+        }
     }
     return result.interrupted ? interruptedExitCode() : 0;
 }
@@ -217,10 +238,11 @@ Command addRenderCommand(CLI::App& app)
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command =
         app.add_subcommand("render", "render a scene into pictures")->group("Commands");
-    command->add_option("scene", options->common.scenePath, "scene (.json) or mesh (.obj)")
+    command->add_option("scene", options->common.scenePath, "scene (.json) or mesh (.obj, .ply)")
         ->required()
         ->type_name("SCENE");
     addOutputOptions(*command, *options);
+    addMapOptions(*command, options->maps);
     addSceneOptions(*command, options->common);
     addDeviceOptions(*command, options->common);
     addMessageOptions(*command, options->common);

@@ -2,6 +2,8 @@
 
 #include "sahl_version.h"
 
+#include <algorithm>
+
 #include <sys/resource.h>
 
 namespace sahl {
@@ -26,6 +28,21 @@ uint64_t peakMemory()
     rusage usage = {};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+/// Work of the rays of all samples of a pixel: mean over the pixels, and most.
+Json pixelsJson(const Film& film)
+{
+    PixelWork most;
+    for (const PixelWork& pixel : film.work) {
+        most.boxTests = std::max(most.boxTests, pixel.boxTests);
+        most.primitiveTests = std::max(most.primitiveTests, pixel.primitiveTests);
+    }
+    const double pixels = std::max(double(film.work.size()), 1.0);
+    return {{"nodeVisitsMean", double(film.counters.boxTests / 2) / pixels},
+            {"nodeVisitsMax", most.boxTests / 2},
+            {"primitiveTestsMean", double(film.counters.primitiveTests) / pixels},
+            {"primitiveTestsMax", most.primitiveTests}};
 }
 
 }  // namespace
@@ -94,20 +111,26 @@ Json statisticsJson(const PreparedScene& prepared, const Film& film, Device& dev
           {"retries", work.retries},
           {"stepBudget", work.stepBudget}}},
         {"counters", countersJson(counters)},
+        {"pixels", pixelsJson(film)},
         {"seconds",
          {{"load", seconds.load},
           {"build", seconds.build},
           {"upload", seconds.upload},
+          {"firstHits", seconds.firstHits},
           {"render", seconds.render},
           {"write", seconds.write},
           {"total", seconds.total}}},
         {"rates",
          {{"samplesPerSecond", perSecond(counters.cameraRays, seconds.render)},
           {"raysPerSecond", perSecond(rays, seconds.render)},
+          {"cameraRaysPerSecond", perSecond(counters.cameraRays, seconds.render)},
+          {"indirectRaysPerSecond", perSecond(counters.indirectRays, seconds.render)},
+          {"shadowRaysPerSecond", perSecond(counters.shadowRays, seconds.render)},
           {"raysPerSample",
            counters.cameraRays > 0 ? double(rays) / double(counters.cameraRays) : 0},
           {"boxTestsPerRay", rays > 0 ? double(counters.boxTests) / double(rays) : 0},
           {"primitiveTestsPerRay", rays > 0 ? double(counters.primitiveTests) / double(rays) : 0}}},
+        {"filmBytes", filmBytes(film.width, film.height)},
         {"peakMemoryBytes", peakMemory()},
     };
 }

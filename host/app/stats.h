@@ -11,7 +11,7 @@ namespace sahl {
 
 /// Wall time of each stage [s].
 struct StageSeconds {
-    double load = 0, build = 0, upload = 0, render = 0, write = 0, total = 0;
+    double load = 0, build = 0, upload = 0, firstHits = 0, render = 0, write = 0, total = 0;
 };
 
 nlohmann::ordered_json statisticsJson(const PreparedScene& prepared, const Film& film,

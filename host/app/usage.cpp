@@ -89,7 +89,9 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error)
         return "a command is missing; choose " + enumeration(commandsOf(app));
     }
     if (kind == CLI::ExitCodes::RequiredError) {
-        return fmt::format("'sahl {}' needs a scene: a .json or .obj file", command.get_name());
+        const char* input = command.get_name() == "tonemap" ? "a picture: an .exr, .hdr or .pfm file"
+                                                            : "a scene: a .json, .obj or .ply file";
+        return fmt::format("'sahl {}' needs {}", command.get_name(), input);
     }
     const CLI::Option* option = optionNamedIn(command, error.what());
     if (option && option->get_items_expected_max() == 0)

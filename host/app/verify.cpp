@@ -151,7 +151,7 @@ Command addVerifyCommand(CLI::App& app)
             ->group("Commands");
     command
         ->add_option("scene", options->common.scenePath,
-                     "scene (.json) or mesh (.obj); without one a small built-in scene")
+                     "scene (.json) or mesh (.obj, .ply); without one a small built-in scene")
         ->type_name("SCENE");
     command
         ->add_option("--difference", options->differencePath,

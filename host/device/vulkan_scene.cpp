@@ -24,11 +24,12 @@ SceneArrays sceneArrays(const DeviceScene& scene)
     return arrays;
 }
 
-// A ray visits each node and each triangle at most once, or once for each instance, and a path has two
-// rays a bounce.
+// A ray visits each node and each triangle at most once, or once for each instance. A path has two rays
+// a bounce, or under phong one for each light.
 uint64_t mostStepsPerSample(const DeviceScene& scene)
 {
     uint64_t rays = 2 * (uint64_t{scene.frame.maxBounces} + 2);
+    if (scene.frame.integrator == INTEGRATOR_PHONG) rays = 1 + uint64_t{scene.frame.lightCount};
     uint64_t once = 2 * uint64_t{scene.nodes.size()} + scene.primitives.size() + 16;
     uint64_t visits = scene.instances.size() + 1;
     constexpr uint64_t MOST = std::numeric_limits<uint64_t>::max();

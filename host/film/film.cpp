@@ -4,6 +4,7 @@
 #include "util/error.h"
 
 #include <cassert>
+#include <limits>
 
 namespace sahl {
 
@@ -16,6 +17,22 @@ void Counters::add(const Counters& other)
     primitiveTests += other.primitiveTests;
     bounces += other.bounces;
     badSamples += other.badSamples;
+}
+
+namespace {
+
+/// Stays at the largest number rather than to wrap around, so that the order does not matter.
+uint32_t saturatingSum(uint32_t a, uint32_t b)
+{
+    return b > std::numeric_limits<uint32_t>::max() - a ? std::numeric_limits<uint32_t>::max() : a + b;
+}
+
+}  // namespace
+
+void PixelWork::add(const PixelWork& other)
+{
+    boxTests = saturatingSum(boxTests, other.boxTests);
+    primitiveTests = saturatingSum(primitiveTests, other.primitiveTests);
 }
 
 namespace {
@@ -47,6 +64,7 @@ Film::Film(uint32_t filmWidth, uint32_t filmHeight) : width(filmWidth), height(f
     const size_t pixels = size_t{width} * height;
     for (std::vector<HalfPixel>& pixelsOfHalf : half) pixelsOfHalf.resize(pixels);
     digest.resize(pixels);
+    work.resize(pixels);
 }
 
 void Film::add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,
@@ -63,6 +81,7 @@ void Film::add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,
             const size_t pixel = size_t{y + row} * width + x + column;
             addBlock(target[pixel], block);
             digest[pixel] += block.digest;
+            work[pixel].add({block.boxTests, block.primitiveTests});
             counters.add(countersOf(block));
         }
     }
@@ -84,6 +103,7 @@ void Film::merge(const Film& other)
         }
     }
     for (size_t i = 0; i < digest.size(); i++) digest[i] += other.digest[i];
+    for (size_t i = 0; i < work.size(); i++) work[i].add(other.work[i]);
     counters.add(other.counters);
 }
 

@@ -43,12 +43,21 @@ struct Counters {
     void add(const Counters& other);
 };
 
+/// Work that all rays of a pixel's samples took: exact up to 2^32 - 2; 2^32 - 1 stands for that and more.
+struct PixelWork {
+    uint32_t boxTests = 0;
+    uint32_t primitiveTests = 0;
+    bool operator==(const PixelWork&) const = default;
+    void add(const PixelWork& other);
+};
+
 struct Film {
     explicit Film(uint32_t filmWidth = 0, uint32_t filmHeight = 0);
 
     uint32_t width, height;
     std::vector<HalfPixel> half[2];  ///< A: even blocks, B: odd blocks; width * height each
     std::vector<uint32_t> digest;    ///< path digest of each pixel
+    std::vector<PixelWork> work;     ///< of each pixel
     Counters counters;
 
     /// Adds the blocks of a tile whose samples start at `firstSample`, a multiple of BLOCK_SIZE.
@@ -61,16 +70,13 @@ struct Film {
     bool operator==(const Film&) const = default;
 };
 
+/// Memory that a film of that size takes [bytes].
+constexpr uint64_t filmBytes(uint64_t width, uint64_t height)
+{
+    return width * height * (2 * sizeof(HalfPixel) + sizeof(uint32_t) + sizeof(PixelWork));
+}
+
 /// Mean radiance of each pixel over both halves, black where there is no sample.
 Image meanImage(const Film& film);
-
-enum class ToneMap {
-    percentile,  ///< the 5th percentile of all RGB values becomes 0, the 95th 1; linear between
-    naive,       ///< the smallest value becomes 0, the largest 1
-    srgb,        ///< times 2^exposure, clipped to [0,1], sRGB encoded
-};
-
-/// 8-bit picture. `exposure` in stops is used by srgb only. Non-finite values count as 0.
-Image8 toneMap(const Image& image, ToneMap how, float exposure);
 
 }  // namespace sahl

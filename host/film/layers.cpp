@@ -65,11 +65,14 @@ std::vector<ImageChannel> firstHitChannels(std::span<const FirstHits> hits, uint
 
 std::vector<ImageChannel> statisticsChannels(const Film& film)
 {
-    std::vector<ImageChannel> channels = {{"samples.Y", {}}, {"variance.Y", {}}};
+    std::vector<ImageChannel> channels = {
+        {"samples.Y", {}}, {"variance.Y", {}}, {"nodeVisits.Y", {}}, {"primitiveTests.Y", {}}};
     for (size_t i = 0; i < film.half[0].size(); i++) {
         PixelStatistics pixel = pixelStatistics(film, i);
         channels[0].values.push_back(static_cast<float>(pixel.samples));
         channels[1].values.push_back(static_cast<float>(pixel.varianceOfMean));
+        channels[2].values.push_back(static_cast<float>(film.work[i].boxTests / 2));
+        channels[3].values.push_back(static_cast<float>(film.work[i].primitiveTests));
     }
     return channels;
 }

@@ -19,8 +19,11 @@ namespace sahl {
 std::vector<ImageChannel> firstHitChannels(std::span<const FirstHits> hits, uint32_t samples,
                                            std::span<const uint32_t> objectStarts);
 
-/// samples.Y, and variance.Y: variance of the pixel's mean luminance, estimated from the spread of its
-/// samples; 0 with fewer than 2.
+/// What the film knows of each pixel:
+///   samples.Y         number of samples
+///   variance.Y        of the mean luminance, estimated from the spread of the samples; 0 with fewer than 2
+///   nodeVisits.Y      inner nodes that the rays of all samples visited; a visit is two box tests
+///   primitiveTests.Y  triangles and spheres that they were tested against
 std::vector<ImageChannel> statisticsChannels(const Film& film);
 
 }  // namespace sahl

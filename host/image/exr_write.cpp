@@ -37,7 +37,7 @@ private:
 }  // namespace
 
 std::vector<uint8_t> encodeExr(const Image& image, const ImageMetadata& metadata,
-                               const std::vector<ImageChannel>& channels)
+                               std::span<const ImageChannel> channels)
 {
     assert(image.width > 0 && image.height > 0);
     assert(image.rgb.size() == size_t{3} * image.width * image.height);

@@ -4,6 +4,7 @@
 #include "util/files.h"
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,7 @@ struct Image8 {
 /// Text that goes along with a picture: EXR attributes, PNG text chunks.
 using ImageMetadata = std::map<std::string, std::string>;
 
-/// Reads EXR, PFM or HDR, told apart by their first bytes. At most 2^28 pixels and 32768 a side.
+/// Reads EXR, PFM or HDR, told apart by their first bytes; also packed with gzip. At most 2^28 pixels and 32768 a side.
 /// Throws badInput naming the file and what is wrong with it: truncated, wrong magic, zero size.
 /// Non-finite values are kept: what they mean is the caller's matter.
 Image readImage(const fs::path& path);
@@ -40,7 +41,7 @@ struct ImageChannel {
 /// Encoders: the complete file in memory, to be written by writeFileAtomically.
 /// EXR: float32, ZIP; `channels` beside R, G and B.
 std::vector<uint8_t> encodeExr(const Image& image, const ImageMetadata& metadata,
-                               const std::vector<ImageChannel>& channels = {});
+                               std::span<const ImageChannel> channels = {});
 std::vector<uint8_t> encodePng(const Image8& image, const ImageMetadata& metadata);
 std::vector<uint8_t> encodePfm(const Image& image);
 

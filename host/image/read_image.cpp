@@ -1,6 +1,7 @@
 // Finds out what kind of picture a file is and hands it to the reader of that format.
 #include "image/image_readers.h"
 #include "util/error.h"
+#include "util/gzip.h"
 
 #include <algorithm>
 #include <string_view>
@@ -28,7 +29,6 @@ std::string_view foreignFormat(std::span<const uint8_t> bytes)
 {
     if (startsWith(bytes, "\x89PNG")) return "PNG";
     if (startsWith(bytes, "\xff\xd8\xff")) return "JPEG";
-    if (startsWith(bytes, "\x1f\x8b")) return "gzip";
     if (startsWith(bytes, "II*") || startsWith(bytes, "MM")) return "TIFF";
     if (bytes.size() > 1 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '7') return "PNM";
     return "";
@@ -71,7 +71,7 @@ Image makeImage(const ImageFile& file, int64_t width, int64_t height)
 
 Image readImage(const fs::path& path)
 {
-    const std::vector<uint8_t> bytes = readFile(path);
+    const std::vector<uint8_t> bytes = readUnpacked(path);
     const ImageFile file = {path.string(), bytes};
     if (startsWith(bytes, "\x76\x2f\x31\x01")) return decodeExr(file);
     if (startsWith(bytes, "PF") || startsWith(bytes, "Pf")) return decodePfm(file);

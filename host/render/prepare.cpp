@@ -26,6 +26,8 @@ DeviceScene PreparedScene::deviceScene() const
     view.frame.lightCount = static_cast<uint>(scene.lights.size());
     view.frame.integrator = scene.settings.integrator;
     view.frame.jitter = scene.settings.jitter ? 1 : 0;
+    view.frame.ambient = scene.settings.ambient;
+    view.frame.shading = scene.settings.shading;
     return view;
 }
 

@@ -191,6 +191,32 @@ std::string JsonObject::choice(const std::string& key,
     return value->text;
 }
 
+std::vector<size_t> JsonObject::someOf(const std::string& key,
+                                       std::initializer_list<const char*> choices) const
+{
+    std::vector<size_t> places;
+    const JsonNode* value = find(key);
+    if (!value) {
+        for (size_t place = 0; place < choices.size(); place++) places.push_back(place);
+        return places;
+    }
+    for (const JsonNode& word : readArray(document_, *value, nameOf(key))) {
+        requireChoice(document_, word, "an entry of " + nameOf(key), choices);
+        const auto found = std::find(choices.begin(), choices.end(), word.text);
+        const size_t place = static_cast<size_t>(found - choices.begin());
+        if (std::find(places.begin(), places.end(), place) != places.end()) {
+            throw errorAt(document_, word,
+                          fmt::format("{} has \"{}\" twice", nameOf(key), word.text));
+        }
+        places.push_back(place);
+    }
+    if (places.empty()) {
+        throw errorAt(document_, *value,
+                      fmt::format("{} is empty; known: {}", nameOf(key), listOf(choices)));
+    }
+    return places;
+}
+
 std::string readType(const JsonDocument& document, const JsonNode& node, const std::string& what,
                      std::initializer_list<const char*> choices)
 {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace sahl {
 
@@ -56,6 +57,10 @@ public:
     glm::dvec3 direction(const std::string& key) const;
     /// One of `choices`; the first when absent.
     std::string choice(const std::string& key, std::initializer_list<const char*> choices) const;
+    /// The places in `choices` of the words of an array, at least one and each once; all when
+    /// absent.
+    std::vector<size_t> someOf(const std::string& key,
+                               std::initializer_list<const char*> choices) const;
 
     const JsonDocument& document() const { return document_; }
     const JsonNode& node() const { return node_; }

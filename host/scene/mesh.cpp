@@ -1,6 +1,7 @@
 #include "scene/mesh.h"
 
 #include "scene/numbers.h"
+#include "scene/phong.h"
 #include "util/error.h"
 
 #include <algorithm>
@@ -208,6 +209,7 @@ uint32_t addMaterial(Scene& scene, const std::string& name, const vec3& baseColo
     material.eta = 1;
     material.emission = emission;
     material.type = MATERIAL_LAMBERT;
+    setPhongDefaults(material);
     return addMaterial(scene, name, material);
 }
 

@@ -2,12 +2,14 @@
 // takes 0 for whatever is not a number.
 #include "scene/numbers.h"
 #include "scene/obj_reader.h"
+#include "scene/phong.h"
 #include "scene/statements.h"
 #include "util/error.h"
 
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <sstream>
 
@@ -20,13 +22,19 @@ constexpr double MAX_EMISSION = 1e18;
 
 /// What the check of an MTL file found out.
 struct MtlCheck {
-    std::set<std::string> withDiffuse;  ///< materials that have a Kd
-    std::set<std::string> unused;       ///< keywords that Sahl makes nothing of
+    std::set<std::pair<std::string, std::string>> given;  ///< material and keyword of a number
+    std::set<std::string> unused;                         ///< keywords that Sahl makes nothing of
+
+    bool has(const std::string& material, const char* keyword) const
+    {
+        return given.count({material, keyword}) > 0;
+    }
 };
 
 MtlCheck checkMtl(std::string_view text, const std::string& file)
 {
-    static const std::set<std::string_view> harmless = {"Ka", "illum", "newmtl"};
+    static const std::set<std::string_view> harmless = {"illum", "newmtl"};
+    static const std::set<std::string_view> colors = {"Ka", "Kd", "Ks", "Ke"};
     MtlCheck check;
     StatementReader statements(text, file);
     Statement s;
@@ -34,9 +42,10 @@ MtlCheck checkMtl(std::string_view text, const std::string& file)
     while (statements.next(s)) {
         if (s.keyword == "newmtl") {
             material = std::string(s.rest);
-        } else if (s.keyword == "Kd" || s.keyword == "Ke") {
-            checkNumbers(s, 3, 3);
-            if (s.keyword == "Kd") check.withDiffuse.insert(material);
+        } else if (colors.count(s.keyword) > 0 || s.keyword == "Ns") {
+            const size_t count = s.keyword == "Ns" ? 1 : 3;
+            checkNumbers(s, count, count);
+            check.given.emplace(material, s.keyword);
         } else if (harmless.count(s.keyword) == 0) {
             check.unused.insert(std::string(s.keyword.substr(0, 20)));
         }
@@ -58,12 +67,25 @@ vec3 clampColor(const tinyobj::real_t (&color)[3], double most, uint64_t& clampe
     return result;
 }
 
+/// Ka, Ks and Ns, for the phong integrator.
+void readPhong(const tinyobj::material_t& m, const MtlCheck& check, ObjMaterial& material,
+               uint64_t& clamped)
+{
+    if (check.has(material.name, "Ka")) material.ambientColor = clampColor(m.ambient, 1, clamped);
+    if (check.has(material.name, "Ks")) material.specularColor = clampColor(m.specular, 1, clamped);
+    if (!check.has(material.name, "Ns")) return;
+    const double exponent = m.shininess;
+    if (exponent < 0 || exponent > MAX_SHININESS) clamped++;
+    material.shininess = toFloat(std::clamp(exponent, 0.0, MAX_SHININESS));
+}
+
 void tellUnused(const std::set<std::string>& unused, const std::string& file)
 {
     if (unused.empty()) return;
     std::string list;
     for (const std::string& keyword : unused) list += (list.empty() ? "" : ", ") + keyword;
-    warn(fmt::format("{}: only Kd and Ke are used; left out: {}", file, list.substr(0, 200)));
+    warn(fmt::format("{}: only Ka, Kd, Ks, Ke and Ns are used; left out: {}", file,
+                     list.substr(0, 200)));
 }
 
 }  // namespace
@@ -85,11 +107,13 @@ void readMtl(const fs::path& file, std::map<std::string, ObjMaterial>& materials
         if (name.empty()) continue;  // tinyobjloader flushes an unnamed one from an empty file
         ObjMaterial material;
         material.name = name;
-        if (check.withDiffuse.count(name) > 0) {
-            material.baseColor = clampColor(m.diffuse, 1, clamped);
-        }
+        if (check.has(name, "Kd")) material.baseColor = clampColor(m.diffuse, 1, clamped);
         material.emission = clampColor(m.emission, MAX_EMISSION, clamped);
-        if (!isFinite(material.baseColor) || !isFinite(material.emission)) {
+        readPhong(m, check, material, clamped);
+        if (!isFinite(material.baseColor) || !isFinite(material.emission) ||
+            !isFinite(material.specularColor) ||
+            !isFinite(material.ambientColor.value_or(vec3(0))) ||
+            !std::isfinite(material.shininess.value_or(0))) {
             throw badInput("{}: tinyobjloader misreads a colour of \"{}\"; write it more simply",
                            file.string(), name);
         }
@@ -97,8 +121,10 @@ void readMtl(const fs::path& file, std::map<std::string, ObjMaterial>& materials
     }
     tellUnused(check.unused, file.string());
     if (clamped > 0) {
-        warn(fmt::format("{}: {} colours outside [0,1] (Kd) or below 0 (Ke) were clamped",
-                         file.string(), clamped));
+        warn(fmt::format(
+            "{}: {} colours outside [0,1] (Ka, Kd, Ks) or below 0 (Ke), or exponents (Ns) "
+            "outside [0,1e6], were clamped",
+            file.string(), clamped));
     }
 }
 

@@ -7,6 +7,7 @@
 #include "scene/polygon.h"
 #include "scene/statements.h"
 #include "util/error.h"
+#include "util/gzip.h"
 
 #include <tiny_obj_loader.h>
 
@@ -325,7 +326,7 @@ ObjFile readObj(const fs::path& file, const PathPolicy& policy)
     ObjReading reading;
     reading.file = file.string();
     reading.policy = policy;
-    std::string text = normaliseLines(readTextFile(file, MAX_OBJ_BYTES), reading.file);
+    std::string text = normaliseLines(readUnpackedText(file, MAX_OBJ_BYTES), reading.file);
     readStatements(reading, text, checkVertex);
     readStatements(reading, text, checkOther);
     tellOmissions(reading);

@@ -5,6 +5,7 @@
 #include "scene/path_policy.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,11 @@ struct ObjMaterial {
     std::string name;
     vec3 baseColor = vec3(0.7f);  ///< Kd, clamped to [0,1]; grey where the file gives none
     vec3 emission = vec3(0.0f);   ///< Ke [W m^-2 sr^-1]
+
+    // For the phong integrator alone
+    std::optional<vec3> ambientColor = std::nullopt;  ///< Ka, clamped to [0,1]
+    vec3 specularColor = vec3(0.0f);                  ///< Ks, clamped to [0,1]
+    std::optional<float> shininess = std::nullopt;    ///< Ns, clamped to [0, MAX_SHININESS]
 };
 
 struct ObjFile {

@@ -2,7 +2,9 @@
 
 #include "bvh/box.h"
 #include "scene/camera.h"
+#include "scene/mesh_file.h"
 #include "scene/primitives.h"
+#include "scene/phong.h"
 #include "scene/probe.h"
 #include "scene/scene_reading.h"
 
@@ -13,34 +15,26 @@ namespace sahl {
 
 namespace {
 
-std::string lowerCaseExtension(const fs::path& path)
-{
-    std::string extension = path.extension().string();
-    for (char& c : extension) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return extension;
-}
-
 void useStudioProbe(Scene& scene, const SceneOptions& options)
 {
     uint filter = probeFilter(options.probeFilter.value_or("bilinear"));
     setProbe(scene, makeStudioProbe(STUDIO_WIDTH, STUDIO_HEIGHT), PROBE_LATLONG, filter, "studio");
 }
 
-Scene loadObjScene(const fs::path& path, const SceneOptions& options)
+Scene loadMeshScene(const fs::path& path, const SceneOptions& options)
 {
     Scene scene;
     scene.name = path.string();
     applyOptions(scene.settings, options);
     checkPictureSize(scene.settings, scene.name);
-    ObjFile obj = readObj(path, {folderOf(path), options.allowedPaths});
+    ObjFile obj = readMeshFile(path, {folderOf(path), options.allowedPaths});
     appendObj(scene, obj, {}, options.smoothNormals, scene.name);
     if (options.probe)
         applyProbeOption(scene, options);
     else
         useStudioProbe(scene, options);
     scene.camera = makeCamera(framePrimitives(scene), scene.settings.width, scene.settings.height);
+    if (scene.settings.integrator == INTEGRATOR_PHONG) addHeadLight(scene);
     return scene;
 }
 
@@ -63,7 +57,9 @@ void warnAboutOddScene(const Scene& scene)
         std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
             return m.emission.x > 0 || m.emission.y > 0 || m.emission.z > 0;
         });
-    if (!hasEmitter && scene.lights.empty() && scene.probe.height == 0) {
+    if (scene.settings.integrator == INTEGRATOR_PHONG) {
+        warnAboutDarkPhong(scene);
+    } else if (!hasEmitter && scene.lights.empty() && scene.probe.height == 0) {
         warn(fmt::format("{}: no light, no emission and no environment: the picture will be black",
                          scene.name));
     }
@@ -78,6 +74,7 @@ void applyOptions(RenderSettings& settings, const SceneOptions& options)
     settings.spp = options.spp.value_or(settings.spp);
     settings.maxBounces = options.maxBounces.value_or(settings.maxBounces);
     settings.seed = options.seed.value_or(settings.seed);
+    applyShadingOptions(settings, options);
 }
 
 void applyProbeOption(Scene& scene, const SceneOptions& options)
@@ -118,13 +115,13 @@ Box extentOf(const Scene& scene)
 
 Scene loadScene(const fs::path& path, const SceneOptions& options)
 {
-    std::string extension = lowerCaseExtension(path);
-    if (extension != ".json" && extension != ".obj") {
+    std::string extension = meshExtension(path);
+    if (extension != ".json" && !isMeshFile(path)) {
         requireRegularFile(path);
-        throw badInput("{}: \"{}\" files are not read; use .json (see scenes/README.md) or .obj",
+        throw badInput("{}: \"{}\" files are not read; use .json (see scenes/README.md), .obj or .ply",
                        path.string(), extension);
     }
-    Scene scene = extension == ".obj" ? loadObjScene(path, options) : loadJsonScene(path, options);
+    Scene scene = isMeshFile(path) ? loadMeshScene(path, options) : loadJsonScene(path, options);
     warnAboutOddScene(scene);
     return scene;
 }

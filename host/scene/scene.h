@@ -34,6 +34,8 @@ struct RenderSettings {
     uint32_t seed = 0;
     uint32_t integrator = INTEGRATOR_PATH;
     bool jitter = true;  ///< samples spread over the pixel rather than all through its centre
+    uint32_t shading = SHADING_TERMS;  ///< SHADING_* bits: terms, shadows and normals
+    vec3 ambient = vec3(0.1f);         ///< for phong: radiance from everywhere [W m^-2 sr^-1]
 };
 
 /// Everything a picture is made of, before the tree is built. Primitives are in the order in which
@@ -92,6 +94,10 @@ Box extentOf(const std::vector<Primitive>& primitives);
 /// What the command line adds to or changes in a scene.
 struct SceneOptions {
     std::optional<uint32_t> width, height, spp, maxBounces, seed;
+    std::optional<uint32_t> integrator;  ///< one of INTEGRATOR_*
+    std::optional<uint32_t> terms;       ///< of phong: bits of SHADING_TERMS
+    std::optional<bool> shadows;         ///< of phong
+    std::optional<bool> flatNormals;     ///< geometric normals in place of interpolated ones
     std::optional<fs::path> probe;            ///< replaces the environment
     std::optional<std::string> probeMapping;  ///< "latlong" or "angular"
     std::optional<std::string> probeFilter;   ///< "nearest" or "bilinear"
@@ -99,8 +105,8 @@ struct SceneOptions {
     std::vector<fs::path> allowedPaths;       ///< folders outside the scene's own to read from
 };
 
-/// Reads a scene: .json (scenes/schema.json) or .obj (framing camera, default studio probe when no
-/// probe is named). Throws badInput with file, line and column or object, and what would help.
+/// Reads a scene: .json (scenes/schema.json) or a mesh, .obj or .ply (framing camera, default studio
+/// probe when no probe is named). Throws badInput with file, line and column or object, and what would help.
 Scene loadScene(const fs::path& path, const SceneOptions& options);
 
 /// A small scene that needs no file: 2 spheres of triangles with smooth normals, a lamp, a point

@@ -1,6 +1,7 @@
 // Scene files: JSON, described by scenes/schema.json and scenes/README.md.
 #include "scene/camera.h"
 #include "scene/scene_reading.h"
+#include "util/gzip.h"
 
 namespace sahl {
 
@@ -24,6 +25,7 @@ void readIntegrator(SceneReading& reading, const JsonNode& node)
     settings.maxBounces = integrator.uint("maxBounces", settings.maxBounces, 0, MAX_BOUNCES);
     settings.spp = integrator.uint("samplesPerPixel", settings.spp, 1, MAX_SAMPLES);
     settings.seed = integrator.uint("seed", settings.seed, 0, 0xffffffffu);
+    readShading(integrator, settings);
 }
 
 void checkTopLevelText(const JsonObject& file)
@@ -36,7 +38,7 @@ void checkTopLevelText(const JsonObject& file)
 
 Scene loadJsonScene(const fs::path& path, const SceneOptions& options)
 {
-    JsonDocument document = parseJson(path.string(), readTextFile(path, MAX_JSON_BYTES));
+    JsonDocument document = parseJson(path.string(), readUnpackedText(path, MAX_JSON_BYTES));
     Scene scene;
     scene.name = path.string();
     SceneReading reading{

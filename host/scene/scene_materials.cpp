@@ -98,6 +98,7 @@ Material readMaterial(const JsonDocument& document, const JsonNode& node, const 
         material.type = MATERIAL_REPORT;
         readReportMaterial(object, material);
     }
+    readPhongMaterial(object, material);
     return material;
 }
 

@@ -68,6 +68,12 @@ Camera readCamera(SceneReading& reading, const JsonNode& node);
 ///   what  names it in messages: "\"rotateDeg\" of the environment"
 Transform readRotation(const JsonDocument& document, const JsonNode& node, const std::string& what);
 
+/// Terms, shadows, normals and ambient light of "integrator".
+void readShading(const JsonObject& integrator, RenderSettings& settings);
+
+/// What the phong integrator uses of a material, once the rest of it is read.
+void readPhongMaterial(const JsonObject& object, Material& material);
+
 /// Adds an OBJ file with its own materials.
 ///   smooth  make normals where the file has none
 void appendObj(Scene& scene, const ObjFile& obj, const Transform& transform, bool smooth,

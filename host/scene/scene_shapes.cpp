@@ -1,5 +1,6 @@
 // The shapes of scene files: meshes from files, triangles written out, procedural ones, and
 // spheres.
+#include "scene/mesh_file.h"
 #include "scene/numbers.h"
 #include "scene/primitives.h"
 #include "scene/scene_reading.h"
@@ -144,7 +145,7 @@ void readMeshFile(SceneReading& reading, const JsonObject& shape)
     std::string where = reading.document.where(fileNode.offset);
     fs::path path = resolvePath(reading.policy, reading.folder, shape.string("file", ""), where);
     auto& obj = reading.objFiles[path];
-    if (!obj) obj = std::make_shared<ObjFile>(readObj(path, reading.policy));
+    if (!obj) obj = std::make_shared<ObjFile>(readMeshFile(path, reading.policy));
     bool smooth = shape.boolean("smoothNormals", false) || reading.options.smoothNormals;
     Transform transform = readTransform(reading, shape);
     if (!shape.has("material")) {
@@ -302,6 +303,10 @@ void appendObj(Scene& scene, const ObjFile& obj, const Transform& transform, boo
     std::vector<uint32_t> materials;
     for (const ObjMaterial& m : obj.materials) {
         materials.push_back(addMaterial(scene, m.name, m.baseColor, m.emission));
+        Material& added = scene.materials.back();
+        added.ambientColor = m.ambientColor.value_or(added.ambientColor);
+        added.specularColor = m.specularColor;
+        added.shininess = m.shininess.value_or(added.shininess);
     }
     Mesh smoothMesh;
     if (smooth) {

@@ -67,13 +67,16 @@ TriangleNormals loadNormals(uint index)
 
 Material loadMaterial(uint index)
 {
-    uvec4 a = FETCH(materialWords, index * 4u);
-    uvec4 b = FETCH(materialWords, index * 4u + 1u);
-    uvec4 c = FETCH(materialWords, index * 4u + 2u);
-    uvec4 d = FETCH(materialWords, index * 4u + 3u);
+    uvec4 a = FETCH(materialWords, index * 6u);
+    uvec4 b = FETCH(materialWords, index * 6u + 1u);
+    uvec4 c = FETCH(materialWords, index * 6u + 2u);
+    uvec4 d = FETCH(materialWords, index * 6u + 3u);
+    uvec4 e = FETCH(materialWords, index * 6u + 4u);
+    uvec4 f = FETCH(materialWords, index * 6u + 5u);
     return Material(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), b.w,
                     uintBitsToFloat(c.xyz), uintBitsToFloat(c.w), uintBitsToFloat(d.xyz),
-                    uintBitsToFloat(d.w));
+                    uintBitsToFloat(d.w), uintBitsToFloat(e.xyz), uintBitsToFloat(e.w),
+                    uintBitsToFloat(f.xyz), f.w);
 }
 
 Light loadLight(uint index)

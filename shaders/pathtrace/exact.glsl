@@ -15,13 +15,14 @@ CONST uint MANTISSA_BITS = 0x007fffffu;
 /// a / b where one of them is zero, infinite or not a number, given without their signs.
 uint specialQuotientBits(uint a, uint b)
 {
-    if (a > INFINITY_BITS || b > INFINITY_BITS) return QUIET_NAN_BITS;
     bool aIsZero = a < IMPLICIT_BIT;
     bool bIsZero = b < IMPLICIT_BIT;
-    if (a == INFINITY_BITS) return b == INFINITY_BITS ? QUIET_NAN_BITS : INFINITY_BITS;
-    if (aIsZero) return bIsZero ? QUIET_NAN_BITS : 0u;
-    return bIsZero ? INFINITY_BITS : 0u;
+    bool undefined = (aIsZero && bIsZero) || (a == INFINITY_BITS && b == INFINITY_BITS);
+    uint bits = aIsZero || b == INFINITY_BITS ? 0u : INFINITY_BITS;
+    return undefined || a > INFINITY_BITS || b > INFINITY_BITS ? QUIET_NAN_BITS : bits;
 }
+
+int oneIf(bool condition) { return condition ? 1 : 0; }
 
 /// a / b, rounded to nearest.
 ///   nudge  added to the guess's last place; 0 but in tests
@@ -32,64 +33,56 @@ float exactQuotient(float a, float b, int nudge)
     uint sizeB = floatBitsToUint(b) & ~SIGN_BIT;
     uint exponentA = sizeA >> 23u;
     uint exponentB = sizeB >> 23u;
-    if (exponentA == 0u || exponentB == 0u || exponentA == 255u || exponentB == 255u) {
-        return uintBitsToFloat(specialQuotientBits(sizeA, sizeB) | sign);
-    }
 
     // Mantissas as integers, a's doubled where it is the smaller: the quotient lies in [1, 2)
     uint ma = (sizeA & MANTISSA_BITS) | IMPLICIT_BIT;
     uint mb = (sizeB & MANTISSA_BITS) | IMPLICIT_BIT;
     uint doubled = ma < mb ? 1u : 0u;
-    float fa = uintBitsToFloat(((127u + doubled) << 23u) | (sizeA & MANTISSA_BITS));
-    float fb = uintBitsToFloat(ONE_BITS | (sizeB & MANTISSA_BITS));
+    float fa = uintBitsToFloat((ma ^ IMPLICIT_BIT) | ((127u + doubled) << 23u));
+    float fb = uintBitsToFloat((mb ^ IMPLICIT_BIT) | ONE_BITS);
     int q = int(floatBitsToUint(fa / fb)) + nudge - int(ONE_BITS - IMPLICIT_BIT);
 
-    // The remainder is small, so arithmetic modulo 2^32 gives it exactly
-    int divisor = int(mb);
-    int r = int((ma << (23u + doubled)) - uint(q) * mb);
-    if (r < 0) { q--; r += divisor; }
-    if (r < 0) { q--; r += divisor; }
-    if (r < 0) { q--; r += divisor; }
-    if (r < 0) { q--; r += divisor; }
-    if (r >= divisor) { q++; r -= divisor; }
-    if (r >= divisor) { q++; r -= divisor; }
-    if (r >= divisor) { q++; r -= divisor; }
-    if (r >= divisor) { q++; r -= divisor; }
-    if (r + r > divisor) q++;  // never half way: the quotient of two 24-bit integers is no such number
+    // The remainder is small, so arithmetic modulo 2^32 gives it exactly. Twice the remainder counts the
+    // halves of b by which q is off; all steps are compared at once, as one by one each would wait for
+    // the one before. Never half way: the quotient of two 24-bit integers is no such number
+    int r2 = int((ma << (24u + doubled)) - ((uint(q) * mb) << 1u));
+    int b1 = int(mb);
+    int b3 = b1 + b1 + b1;
+    int b5 = b3 + b1 + b1;
+    q += ((oneIf(r2 > b1) + oneIf(r2 > b3)) + oneIf(r2 > b5)) -
+         ((oneIf(r2 < -b1) + oneIf(r2 < -b3)) + oneIf(r2 < -b5));
 
     int exponent = int(exponentA) - int(exponentB) + 127 - int(doubled);
-    if (exponent < 0) return uintBitsToFloat(sign);
-    if (exponent > 254) return uintBitsToFloat(sign | INFINITY_BITS);
     uint bits = (uint(exponent) << 23u) + uint(q) - IMPLICIT_BIT;  // rounding may carry into it
-    return uintBitsToFloat(sign | (bits < IMPLICIT_BIT ? 0u : bits));
+    if (exponent < 0 || bits < IMPLICIT_BIT) bits = 0u;
+    if (exponent > 254) bits = INFINITY_BITS;
+    bool special = exponentA - 1u >= 254u || exponentB - 1u >= 254u;
+    return uintBitsToFloat(sign | (special ? specialQuotientBits(sizeA, sizeB) : bits));
 }
 
 /// Square root of x, rounded to nearest; nudge as above.
 float exactRoot(float x, int nudge)
 {
     uint size = floatBitsToUint(x) & ~SIGN_BIT;
-    if (size > INFINITY_BITS) return uintBitsToFloat(QUIET_NAN_BITS);
-    if (size < IMPLICIT_BIT) return uintBitsToFloat(floatBitsToUint(x) & SIGN_BIT);
-    if ((floatBitsToUint(x) & SIGN_BIT) != 0u) return uintBitsToFloat(QUIET_NAN_BITS);
-    if (size == INFINITY_BITS) return x;
 
     // x = f * 4^k with f in [1, 4): the root of f lies in [1, 2)
     uint odd = ((size >> 23u) & 1u) ^ 1u;
     uint m = (size & MANTISSA_BITS) | IMPLICIT_BIT;
-    float f = uintBitsToFloat(((127u + odd) << 23u) | (size & MANTISSA_BITS));
+    float f = uintBitsToFloat((m ^ IMPLICIT_BIT) | ((127u + odd) << 23u));
     int s = int(floatBitsToUint(sqrt(f))) + nudge - int(ONE_BITS - IMPLICIT_BIT);
 
+    // s is too small by a step and more where r > s, the distance to (s + 1/2)^2, and so on
     int r = int((m << (23u + odd)) - uint(s) * uint(s));
-    if (r < 0) { s--; r += s + s + 1; }
-    if (r < 0) { s--; r += s + s + 1; }
-    if (r < 0) { s--; r += s + s + 1; }
-    if (r < 0) { s--; r += s + s + 1; }
-    if (r > s + s) { r -= s + s + 1; s++; }
-    if (r > s + s) { r -= s + s + 1; s++; }
-    if (r > s + s) { r -= s + s + 1; s++; }
-    if (r > s + s) { r -= s + s + 1; s++; }
-    if (r > s) s++;
+    int s3 = s + s + s;
+    int s5 = s3 + s + s;
+    s += ((oneIf(r > s) + oneIf(r > s3 + 2)) + oneIf(r > s5 + 6)) -
+         ((oneIf(r <= -s) + oneIf(r <= 2 - s3)) + oneIf(r <= 6 - s5));
 
     uint exponent = ((size >> 23u) + 127u - odd) >> 1u;
-    return uintBitsToFloat((exponent << 23u) + uint(s) - IMPLICIT_BIT);
+    uint bits = (exponent << 23u) + uint(s) - IMPLICIT_BIT;
+    if (size == INFINITY_BITS) bits = INFINITY_BITS;
+    bool negative = (floatBitsToUint(x) & SIGN_BIT) != 0u;
+    if (size > INFINITY_BITS || negative) bits = QUIET_NAN_BITS;
+    if (size < IMPLICIT_BIT) bits = floatBitsToUint(x) & SIGN_BIT;
+    return uintBitsToFloat(bits);
 }

@@ -130,7 +130,11 @@ SurfaceInteraction geometryAt(Primitive shape, Traversal hit, vec3 org, vec3 dir
     return isect;
 }
 
-bool hasNormals(Primitive shape) { return shape.shape != SHAPE_SPHERE && shape.shape != SHAPE_FLAT; }
+bool hasNormals(Primitive shape)
+{
+    bool facets = (frame.shading & SHADING_FLAT) != 0u;
+    return shape.shape != SHAPE_SPHERE && shape.shape != SHAPE_FLAT && !facets;
+}
 
 SurfaceInteraction interactionInInstance(Primitive shape, Traversal hit, vec3 org, vec3 dir)
 {

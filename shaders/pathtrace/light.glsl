@@ -51,3 +51,12 @@ LightSample sampleLight(vec3 p, float u)
     ls.Li = ls.Li * count;
     return ls;
 }
+
+/// Aims the path's shadow ray from a surface at a light.
+void aimShadowRay(SurfaceInteraction isect, LightSample ls, INOUT(PathState) path)
+{
+    path.shadowOrg = offsetOrigin(isect, ls.wi);
+    path.shadowDir = ls.wi;
+    path.shadowTMax = ls.distance;
+    tally.shadowRays++;
+}

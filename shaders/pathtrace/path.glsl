@@ -32,6 +32,7 @@ PathState beginPath(uint x, uint y, uint sampleIndex)
     path.Ld = vec3(0.0f);
     path.digest = 0u;
     path.mediumEta = 1.0f;
+    path.hit = beginTraversal(RAY_INFINITY);
     return path;
 }
 
@@ -55,10 +56,7 @@ bool sampleDirectLight(Material material, SurfaceInteraction isect, float u, INO
     vec3 f = evalBsdfCos(material, isect, ls.wi);
     path.Ld = flushed3(path.beta * f * ls.Li);
     if (!(maxComponent(path.Ld) > 0.0f)) return false;
-    path.shadowOrg = offsetOrigin(isect, ls.wi);
-    path.shadowDir = ls.wi;
-    path.shadowTMax = ls.distance;
-    tally.shadowRays++;
+    aimShadowRay(isect, ls, path);
     return true;
 }
 
@@ -81,26 +79,6 @@ void seeEnvironment(INOUT(PathState) path)
     vec3 Le = path.depth == 0u ? evalProbe(frame.background, path.dir) : evalProbe(frame.probe, path.dir);
     path.L = path.L + path.beta * Le;
     path.phase = PHASE_ENDED;
-}
-
-/// Local shading of the report's first pictures: what the diffuse part of a material reflects from every
-/// light, whether or not something stands between. A normal that faces away from the light gives black.
-void shadePhong(Traversal hit, INOUT(PathState) path)
-{
-    tally.bounces++;
-    SurfaceInteraction isect = interactionAt(hit, path.org, path.dir);
-    Material material = loadMaterial(isect.material);
-    path.L = path.L + material.emission;
-    path.phase = PHASE_ENDED;
-    vec3 reflectance = material.baseColor * (diffuseShare(material) * INV_PI);
-    uint i = 0u;
-    while (i < frame.lightCount) {
-        LightSample ls = illuminate(loadLight(i), isect.p);
-        float cosine = max2(0.0f, dot3(ls.wi, isect.nsStored));
-        path.L = path.L + reflectance * ls.Li * cosine;
-        i++;
-    }
-    if (i != frame.lightCount) faults |= FAULT_LOOP_CUT;
 }
 
 /// What happens at a surface: its emission, a shadow ray, the next ray. Returns the lobe sampled.
@@ -134,7 +112,7 @@ void shadePath(Traversal hit, INOUT(PathState) path)
     if (hit.slot == NO_HIT) {
         seeEnvironment(path);
     } else if (frame.integrator == INTEGRATOR_PHONG) {
-        shadePhong(hit, path);
+        beginPhong(hit, path);
     } else {
         lobe = shadeSurface(hit, path);
     }
@@ -147,13 +125,23 @@ void finishShadow(Traversal hit, INOUT(PathState) path)
     uint blocked = hit.slot != NO_HIT ? 1u : 0u;
     path.digest += digestOf(blocked, 0u, path.depth, DIGEST_SHADOW);
     if (blocked == 0u) path.L = path.L + path.Ld;
-    path.phase = path.phase == PHASE_SHADOW ? PHASE_EXTEND : PHASE_ENDED;
+    if (frame.integrator == INTEGRATOR_PHONG) {
+        passLight(path);
+    } else {
+        path.phase = path.phase == PHASE_SHADOW ? PHASE_EXTEND : PHASE_ENDED;
+    }
 }
 
 /// Takes a path as far as the steps allow: until it has ended, stepsLeft is 0, or a fault.
 void advancePath(INOUT(PathState) path, INOUT(Traversal) walk)
 {
     while (path.phase != PHASE_ENDED && stepsLeft != 0u) {
+        if (path.phase == PHASE_LIGHT) {
+            stepsLeft--;
+            shadeNextLight(path);
+            walk = beginPathTraversal(path);
+            continue;
+        }
         bool shadow = inShadowPhase(path);
         vec3 org = shadow ? path.shadowOrg : path.org;
         vec3 dir = shadow ? path.shadowDir : path.dir;

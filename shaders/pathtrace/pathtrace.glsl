@@ -32,6 +32,7 @@ CONST float RAY_INFINITY = 3.0e38f;
 #include "pathtrace/bsdf.glsl"
 #include "pathtrace/probe.glsl"
 #include "pathtrace/light.glsl"
+#include "pathtrace/phong.glsl"
 #include "pathtrace/path.glsl"
 #include "pathtrace/film.glsl"
 #include "pathtrace/first_hits.glsl"

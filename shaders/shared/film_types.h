@@ -60,27 +60,7 @@ SHARED_CONST uint PHASE_EXTEND = 0u;  // the path's ray looks for the closest hi
 SHARED_CONST uint PHASE_SHADOW = 1u;  // its shadow ray looks for any hit
 SHARED_CONST uint PHASE_LAST_SHADOW = 2u;  // the same, and the path ends after it
 SHARED_CONST uint PHASE_ENDED = 3u;
-
-// A path between two steps.
-struct PathState
-{
-    vec3 org;          // ray that continues the path: origin [m]
-    uint phase;        // one of PHASE_*
-    vec3 dir;          // unit
-    uint depth;        // scatterings so far
-    vec3 beta;         // throughput
-    uint pixel;        // y * width + x in the full picture
-    vec3 L;            // radiance gathered so far [W m^-2 sr^-1]
-    uint sampleIndex;  // within the pixel
-    vec3 shadowOrg;    // shadow ray
-    float shadowTMax;  // distance to the light [m]
-    vec3 shadowDir;    // unit
-    uint digest;
-    vec3 Ld;           // what the light adds when the shadow ray arrives
-    float mediumEta;   // index of refraction where the path is, by the report's rule
-};
-GPU_STRUCT_SIZE(PathState, 112);
-GPU_FIELD(PathState, Ld, 96);
+SHARED_CONST uint PHASE_LIGHT = 4u;  // INTEGRATOR_PHONG: no ray; the next light's turn at what was hit
 
 // A walk through the tree that can stop between two nodes and go on later.
 struct Traversal
@@ -100,6 +80,29 @@ struct Traversal
 };
 GPU_STRUCT_SIZE(Traversal, 48);
 
+// A path between two steps.
+struct PathState
+{
+    vec3 org;          // ray that continues the path: origin [m]
+    uint phase;        // one of PHASE_*
+    vec3 dir;          // unit
+    uint depth;        // scatterings so far; INTEGRATOR_PHONG: lights so far
+    vec3 beta;         // throughput
+    uint pixel;        // y * width + x in the full picture
+    vec3 L;            // radiance gathered so far [W m^-2 sr^-1]
+    uint sampleIndex;  // within the pixel
+    vec3 shadowOrg;    // shadow ray
+    float shadowTMax;  // distance to the light [m]
+    vec3 shadowDir;    // unit
+    uint digest;
+    vec3 Ld;           // what the light adds when the shadow ray arrives
+    float mediumEta;   // index of refraction where the path is, by the report's rule
+    Traversal hit;     // INTEGRATOR_PHONG: what the camera ray met, while shadow rays walk
+};
+GPU_STRUCT_SIZE(PathState, 160);
+GPU_FIELD(PathState, Ld, 96);
+GPU_FIELD(PathState, hit, 112);
+
 struct SuspendedPath
 {
     PathState path;
@@ -114,8 +117,8 @@ struct SuspendedPath
     uint unused2;
     uint stack[MAX_SUSPENDED_STACK];
 };
-GPU_STRUCT_SIZE(SuspendedPath, 192 + 4 * 64);
-GPU_FIELD(SuspendedPath, stack, 192);
+GPU_STRUCT_SIZE(SuspendedPath, 240 + 4 * 64);
+GPU_FIELD(SuspendedPath, stack, 240);
 
 // One dispatch: up to one sample more for every pixel of a tile. Push constants.
 struct Dispatch

@@ -120,10 +120,16 @@ struct Material
     float diffuseWeight;  // MATERIAL_REPORT, in [0,1]
     vec3 conductorK;
     float specularWeight; // MATERIAL_REPORT, in [0,1]
+    vec3 specularColor;   // INTEGRATOR_PHONG alone, as the rest: weight of the highlight, in [0,1]
+    float shininess;      // exponent of the highlight, >= 0
+    vec3 ambientColor;    // share of the ambient light that is sent back, in [0,1]
+    uint unused0;
 };
-GPU_STRUCT_SIZE(Material, 64);
+GPU_STRUCT_SIZE(Material, 96);
 GPU_FIELD(Material, type, 28);
 GPU_FIELD(Material, conductorK, 48);
+GPU_FIELD(Material, shininess, 76);
+GPU_FIELD(Material, ambientColor, 80);
 
 SHARED_CONST uint LIGHT_POINT = 0u;
 SHARED_CONST uint LIGHT_SPOT = 1u;
@@ -192,7 +198,15 @@ GPU_STRUCT_SIZE(Probe, 64);
 GPU_FIELD(Probe, firstTexel, 28);
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
-SHARED_CONST uint INTEGRATOR_PHONG = 1u;  // local shading by the lights alone, without shadows
+SHARED_CONST uint INTEGRATOR_PHONG = 1u;  // local shading by the lights alone
+
+// Bits of Frame.shading. The first four are for INTEGRATOR_PHONG.
+SHARED_CONST uint SHADING_AMBIENT = 1u;    // terms that are added up
+SHARED_CONST uint SHADING_DIFFUSE = 2u;
+SHARED_CONST uint SHADING_SPECULAR = 4u;
+SHARED_CONST uint SHADING_SHADOWS = 8u;    // lights count only where they are seen
+SHARED_CONST uint SHADING_FLAT = 16u;      // geometric normals in place of interpolated ones
+SHARED_CONST uint SHADING_TERMS = 7u;      // all terms
 
 // Everything that stays the same for a whole picture.
 struct Frame
@@ -208,10 +222,13 @@ struct Frame
     uint lightCount;
     uint integrator;     // one of INTEGRATOR_*
     uint jitter;         // 1: samples spread over the pixel; 0: all go through its centre
+    vec3 ambient;        // INTEGRATOR_PHONG: radiance that arrives from everywhere [W m^-2 sr^-1]
+    uint shading;        // SHADING_* bits
 };
-GPU_STRUCT_SIZE(Frame, 256);
+GPU_STRUCT_SIZE(Frame, 272);
 GPU_FIELD(Frame, probe, 96);
 GPU_FIELD(Frame, rootRef, 240);
+GPU_FIELD(Frame, shading, 268);
 
 SHARED_END
 

@@ -35,6 +35,12 @@ void put(Probe p)
     put(p.axisX); put(p.firstTexel); put(p.axisY); put(p.unused0); put(p.axisZ); put(p.unused1);
 }
 
+void put(Traversal w)
+{
+    put(w.ref); put(w.stackSize); put(w.slot); put(w.number); put(w.tHit); put(w.b1); put(w.b2);
+    put(w.inside); put(w.instance); put(w.unused0); put(w.unused1); put(w.unused2);
+}
+
 void main()
 {
     // The second element of each array: the stride counts as well.
@@ -47,6 +53,7 @@ void main()
     Material m = materials[1];
     put(m.baseColor); put(m.eta); put(m.emission); put(m.type);
     put(m.conductorEta); put(m.diffuseWeight); put(m.conductorK); put(m.specularWeight);
+    put(m.specularColor); put(m.shininess); put(m.ambientColor); put(m.unused0);
     Light l = lights[1];
     put(l.position); put(l.type); put(l.intensity); put(l.cosOuter); put(l.direction); put(l.cosInner);
     Frame f = frames[1];
@@ -57,6 +64,7 @@ void main()
     put(f.background);
     put(f.width); put(f.height); put(f.seed); put(f.maxBounces);
     put(f.rootRef); put(f.lightCount); put(f.integrator); put(f.jitter);
+    put(f.ambient); put(f.shading);
     PixelBlock b = blocks[1];
     put(b.sum); put(b.sumY2); put(b.digest); put(b.samplesDone); put(b.status); put(b.badSamples);
     put(b.indirectRays); put(b.shadowRays); put(b.boxTests); put(b.primitiveTests);
@@ -64,9 +72,8 @@ void main()
     PathState p = paths[1].path;
     put(p.org); put(p.phase); put(p.dir); put(p.depth); put(p.beta); put(p.pixel); put(p.L); put(p.sampleIndex);
     put(p.shadowOrg); put(p.shadowTMax); put(p.shadowDir); put(p.digest); put(p.Ld); put(p.mediumEta);
-    Traversal w = paths[1].traversal;
-    put(w.ref); put(w.stackSize); put(w.slot); put(w.number); put(w.tHit); put(w.b1); put(w.b2);
-    put(w.inside); put(w.instance); put(w.unused0); put(w.unused1); put(w.unused2);
+    put(p.hit);
+    put(paths[1].traversal);
     put(paths[1].indirectRays); put(paths[1].shadowRays); put(paths[1].boxTests); put(paths[1].primitiveTests);
     put(paths[1].bounces); put(paths[1].unused0); put(paths[1].unused1); put(paths[1].unused2);
     for (uint i = 0u; i < MAX_SUSPENDED_STACK; i++) put(paths[1].stack[i]);

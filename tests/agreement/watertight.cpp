@@ -1,56 +1,22 @@
 // Closed surfaces let no ray through, and rays that leave a surface do not meet it again where they
 // started. Suites called Long... ask for the full number of rays.
 #include "agreement/rays.h"
+#include "scene/obj_reader.h"
 #include "scene/primitives.h"
+#include "support/assets.h"
+#include "support/closed_meshes.h"
 #include "support/render_scenes.h"
 #include "util/parallel.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <functional>
-#include <map>
 
 namespace sahl::testing {
 namespace {
 
-using Point = std::array<float, 3>;
-
-Point keyOf(const vec3& p)
-{
-    return {p.x, p.y, p.z};
-}
-
-/// True when every edge is used by as many triangles in one direction as in the other, at least
-/// once.
-bool isClosed(std::span<const Primitive> triangles)
-{
-    std::map<std::pair<Point, Point>, int> balance;
-    for (const Primitive& t : triangles) {
-        for (const auto& [a, b] :
-             {std::pair(t.p0, t.p1), std::pair(t.p1, t.p2), std::pair(t.p2, t.p0)}) {
-            balance[{keyOf(a), keyOf(b)}]++;
-            balance[{keyOf(b), keyOf(a)}]--;
-        }
-    }
-    return std::all_of(balance.begin(), balance.end(),
-                       [](const auto& edge) { return edge.second == 0; });
-}
-
-std::vector<Primitive> trianglesOf(const Mesh& mesh)
-{
-    std::vector<Primitive> triangles;
-    for (const MeshTriangle& t : mesh.triangles) {
-        addTriangle(triangles, mesh.positions[t.position[0]], mesh.positions[t.position[1]],
-                    mesh.positions[t.position[2]]);
-    }
-    return triangles;
-}
-
-/// A closed mesh and a way to find points well inside. (The teapot is none: its lid lies loose on
-/// it.)
+/// A closed mesh and a way to find points inside.
 struct Hull {
     std::vector<Primitive> triangles;
     std::function<vec3(Random&)> inside;
@@ -97,6 +63,23 @@ Hull room()
     return hull;
 }
 
+/// A mesh of which nothing is known but that it has holes, closed by us.
+Hull closed(const Mesh& mesh, size_t expectedHoles)
+{
+    Hull hull = {trianglesOf(mesh), {}};
+    EXPECT_FALSE(isClosed(hull.triangles));
+    EXPECT_EQ(closeHoles(hull.triangles), expectedHoles);
+    const Box box = boxOfAll(hull.triangles);
+    Random random(11);
+    std::vector<vec3> points;
+    while (points.size() < 64) {
+        const vec3 point = pointIn(box, random);
+        if (windingNumber(hull.triangles, point) > 0.5) points.push_back(point);
+    }
+    hull.inside = [points](Random& choice) { return points[choice.below(64)]; };
+    return hull;
+}
+
 /// Where on the surface a ray is aimed: at a vertex, at an edge, at an edge's middle, or nowhere.
 vec3 targetOn(std::span<const Primitive> triangles, Random& random)
 {
@@ -140,6 +123,14 @@ void expectNoLeaks(size_t count)
     expectNoLeak(ring(), count);
     expectNoLeak(pancake(), count);
     expectNoLeak(room(), count);
+    // The rims of the body and of the lid, both ends of the handle and of the spout
+    expectNoLeak(closed(makeTeapot(10, false), 6), count);
+}
+
+void expectNoLeakInBunny(size_t count)
+{
+    const fs::path file = assetFolder() / "meshes/miro/bunny.obj";
+    expectNoLeak(closed(readObj(file, {file.parent_path(), {}}).mesh, 5), count);
 }
 
 TEST(Watertight, noRayLeavesAClosedMesh)
@@ -150,6 +141,25 @@ TEST(Watertight, noRayLeavesAClosedMesh)
 TEST(LongWatertight, noRayLeavesAClosedMesh)
 {
     expectNoLeaks(10'000'000);
+}
+
+TEST(Watertight, noRayLeavesTheBunnyWhoseHolesAreClosed)
+{
+    SAHL_REQUIRE_ASSET("meshes/miro/bunny.obj");
+    expectNoLeakInBunny(100'000);
+}
+
+TEST(LongWatertight, noRayLeavesTheBunnyWhoseHolesAreClosed)
+{
+    SAHL_REQUIRE_ASSET("meshes/miro/bunny.obj");
+    expectNoLeakInBunny(10'000'000);
+}
+
+TEST(Watertight, pointsInsideAreToldFromThoseOutside)
+{
+    const Hull hull = ball(2, {1, 2, 3}, 1);
+    EXPECT_NEAR(windingNumber(hull.triangles, {1.3f, 2, 3.5f}), 1, 1e-9);
+    EXPECT_NEAR(windingNumber(hull.triangles, {2.1f, 2, 3}), 0, 1e-9);
 }
 
 TEST(Watertight, anOpenMeshIsToldFromAClosedOne)

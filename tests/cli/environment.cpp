@@ -55,7 +55,7 @@ TEST_F(Environment, unknownDevice_isRefusedWithTheList)
 /// most machines without people do not have it.
 TEST_F(Environment, localeWithDecimalComma_changesNoByte)
 {
-    Arguments arguments = {"--exposure", "1.5", "--tone-map", "srgb", "-o", "a.exr", "-o", "a.png"};
+    Arguments arguments = {"--exposure", "1.5", "--tone-map", "exposure", "-o", "a.exr", "-o", "a.png"};
     ASSERT_EQ(render(arguments).exitCode, 0);
     std::string exr = textOf(folder / "a.exr");
     std::string png = textOf(folder / "a.png");

@@ -189,9 +189,15 @@ TEST_F(Pictures, statistics_addUp)
     EXPECT_GT(counters["indirectRays"], 0);
     EXPECT_GT(counters["boxTests"], 0);
     EXPECT_EQ(counters["badSamples"], 0);
+    const auto& pixels = statistics["pixels"];
+    EXPECT_DOUBLE_EQ(pixels["nodeVisitsMean"].get<double>() * 16 * 12 * 2, counters["boxTests"]);
+    EXPECT_DOUBLE_EQ(pixels["primitiveTestsMean"].get<double>() * 16 * 12,
+                     counters["primitiveTests"]);
+    EXPECT_GT(pixels["nodeVisitsMax"].get<double>(), pixels["nodeVisitsMean"].get<double>());
+    EXPECT_EQ(statistics["filmBytes"], 16 * 12 * (2 * 72 + 4 + 8));
     const auto& seconds = statistics["seconds"];
     double stages = 0;
-    for (const char* stage : {"load", "build", "upload", "render", "write"}) {
+    for (const char* stage : {"load", "build", "upload", "firstHits", "render", "write"}) {
         stages += seconds[stage].get<double>();
     }
     EXPECT_NEAR(seconds["total"].get<double>(), stages, 0.05 + 0.05 * stages);

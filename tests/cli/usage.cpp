@@ -20,13 +20,14 @@ TEST(Usage, noArguments_showAShortUsageOnStderr)
     RunResult result = sahl({});
     EXPECT_EQ(result.exitCode, 2);
     EXPECT_EQ(result.out, "");
-    EXPECT_EQ(result.err, "usage: sahl render|verify|devices [options]\ntry: sahl --help\n");
+    EXPECT_EQ(result.err, "usage: sahl render|tonemap|verify|devices [options]\ntry: sahl --help\n");
 }
 
 TEST(Usage, helpAndVersion_goToStdout)
 {
     for (const Arguments& arguments :
-         {Arguments{"--help"}, {"-h"}, {"render", "--help"}, {"verify", "-h"}, {"devices", "-h"}}) {
+         {Arguments{"--help"}, {"-h"}, {"render", "--help"}, {"tonemap", "-h"}, {"verify", "-h"},
+          {"devices", "-h"}}) {
         RunResult result = sahl(arguments);
         EXPECT_EQ(result.exitCode, 0);
         EXPECT_HAS(result.out, "Usage: sahl ");
@@ -92,13 +93,14 @@ TEST(Usage, unknownOption_suggestsTheNearest)
 TEST(Usage, unknownCommand_suggestsTheNearest)
 {
     expectUsageError({"rendr", "x.json"}, "unknown command 'rendr'; did you mean render?");
-    expectUsageError({"sing"}, "unknown command 'sing'; choose render, verify or devices");
-    expectUsageError({"--"}, "a command is missing; choose render, verify or devices");
+    expectUsageError({"sing"}, "unknown command 'sing'; choose render, tonemap, verify or devices");
+    expectUsageError({"--"}, "a command is missing; choose render, tonemap, verify or devices");
 }
 
 TEST(Usage, missingAndExtraWords_areNamed)
 {
     expectUsageError({"render"}, "'sahl render' needs a scene: a .json or .obj file");
+    expectUsageError({"tonemap"}, "'sahl tonemap' needs a picture: an .exr, .hdr or .pfm file");
     expectUsageError({"render", "x.json", "--spp"}, "--spp needs a value: N");
     expectUsageError({"render", "x.json", "-o"}, "--output needs a value: FILE");
     expectUsageError({"render", "x.json", "--quiet=3"}, "--quiet takes no value");
@@ -142,9 +144,9 @@ TEST(Usage, numbersOutOfRange_nameTheRange)
 TEST(Usage, wordsThatAreNoChoice_nameTheChoices)
 {
     expectUsageError({"render", "x.json", "--tone-map", "foo"},
-                     "--tone-map 'foo' is not known; choose percentile, naive or srgb");
-    expectUsageError({"render", "x.json", "--tone-map", "srbg"},
-                     "--tone-map 'srbg' is not known; did you mean srgb?");
+                     "--tone-map 'foo' is not known; choose percentile, naive, exposure or filmic");
+    expectUsageError({"render", "x.json", "--tone-map", "filmik"},
+                     "--tone-map 'filmik' is not known; did you mean filmic?");
     expectUsageError({"render", "x.json", "--progress", "", "-q"},
                      "--progress '' is not known; choose auto, bar, plain or none");
 }
@@ -154,7 +156,7 @@ class Repeated : public SceneFolderTest {};
 TEST_F(Repeated, optionGivenTwice_takesTheLast)
 {
     RunResult result = render({"--spp", "5", "--spp", "3", "--tone-map", "naive", "--tone-map",
-                               "srgb", "-q", "-q", "--stats", "a.json", "--stats", "b.json"});
+                               "exposure", "-q", "-q", "--stats", "a.json", "--stats", "b.json"});
     ASSERT_EQ(result.exitCode, 0) << result.err;
     EXPECT_EQ(files(), (std::vector<std::string>{"b.json", "ball.exr", "ball.png"}));
     auto statistics = nlohmann::json::parse(textOf(folder / "b.json"));

@@ -191,4 +191,28 @@ textbook::World textbookWorld(const Scene& scene)
     return world;
 }
 
+textbook::PhongWorld textbookPhong(const Scene& scene)
+{
+    textbook::PhongWorld phong;
+    phong.world = textbookWorld(scene);
+    for (const Material& material : scene.materials) {
+        const double share = material.type == MATERIAL_LAMBERT  ? 1
+                             : material.type == MATERIAL_REPORT ? double{material.diffuseWeight}
+                                                                : 0;
+        const textbook::Vec base = vecOf(material.baseColor);
+        phong.materials.push_back({vecOf(material.emission),
+                                   vecOf(material.ambientColor),
+                                   {base.x * share, base.y * share, base.z * share},
+                                   vecOf(material.specularColor),
+                                   material.shininess});
+    }
+    phong.ambient = vecOf(scene.settings.ambient);
+    phong.ambientTerm = (scene.settings.shading & SHADING_AMBIENT) != 0;
+    phong.diffuseTerm = (scene.settings.shading & SHADING_DIFFUSE) != 0;
+    phong.specularTerm = (scene.settings.shading & SHADING_SPECULAR) != 0;
+    phong.shadows = (scene.settings.shading & SHADING_SHADOWS) != 0;
+    phong.flat = (scene.settings.shading & SHADING_FLAT) != 0;
+    return phong;
+}
+
 }  // namespace sahl::testing

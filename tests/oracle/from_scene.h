@@ -3,11 +3,15 @@
 #pragma once
 
 #include "oracle/textbook.h"
+#include "oracle/textbook_phong.h"
 #include "scene/scene.h"
 
 namespace sahl::testing {
 
 /// The scene as it is before its tree is built (scene.primitives filled).
 textbook::World textbookWorld(const Scene& scene);
+
+/// The same for the phong integrator.
+textbook::PhongWorld textbookPhong(const Scene& scene);
 
 }  // namespace sahl::testing

@@ -27,5 +27,6 @@ std::vector<Term> materialTerms();
 std::vector<Term> lightTerms();   ///< lamps, probes
 std::vector<Term> cameraTerms();  ///< cameras, shapes
 std::vector<Term> instanceTerms();
+std::vector<Term> phongTerms();   ///< of the phong integrator, without noise
 
 }  // namespace sahl::testing

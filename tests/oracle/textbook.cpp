@@ -1,69 +1,13 @@
-#include "oracle/textbook.h"
+#include "oracle/textbook_parts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
-#include <numbers>
 #include <random>
 #include <thread>
 
 namespace textbook {
 namespace {
-
-using std::numbers::pi;
-constexpr double INFINITE = std::numeric_limits<double>::infinity();
-constexpr double TINY = 1e-8;  ///< [m] hits nearer than this are where the ray started
-
-Vec operator+(Vec a, Vec b)
-{
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Vec operator-(Vec a, Vec b)
-{
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Vec operator-(Vec a)
-{
-    return {-a.x, -a.y, -a.z};
-}
-Vec operator*(Vec a, double s)
-{
-    return {a.x * s, a.y * s, a.z * s};
-}
-Vec operator*(Vec a, Vec b)
-{
-    return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
-double dot(Vec a, Vec b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-double length(Vec a)
-{
-    return std::sqrt(dot(a, a));
-}
-Vec normalized(Vec a)
-{
-    return a * (1 / length(a));
-}
-Vec cross(Vec a, Vec b)
-{
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-struct Ray {
-    Vec origin;
-    Vec direction;  ///< unit
-};
-
-/// What a ray meets first.
-struct Hit {
-    double t = INFINITE;
-    Vec front;    ///< unit normal on the surface's front
-    Vec shading;  ///< unit normal that stands in for it, interpolated
-    size_t material = 0;
-};
 
 /// Solves origin + t direction = (1 - b - c) A + b B + c C by Cramer's rule.
 void intersect(const Ray& ray, const Triangle& triangle, Hit& hit)
@@ -137,6 +81,8 @@ void intersect(const Ray& ray, const PlacedSphere& placed, Hit& hit)
     }
 }
 
+}  // namespace
+
 Hit closestHit(const World& world, const Ray& ray)
 {
     Hit hit;
@@ -145,6 +91,8 @@ Hit closestHit(const World& world, const Ray& ray)
     for (const PlacedSphere& sphere : world.placedSpheres) intersect(ray, sphere, hit);
     return hit;
 }
+
+namespace {
 
 Vec texelAt(const Probe& probe, int x, int y)
 {

@@ -200,6 +200,7 @@ TEST(Phong, seesLightsThroughWhatStandsBefore)
 {
     Scene scene = screenedPlane();
     scene.settings.integrator = INTEGRATOR_PHONG;
+    scene.settings.shading = SHADING_DIFFUSE;
     // 2.5 m away, at a cosine of 1.5 / 2.5.
     expectMean(frameMean(std::move(scene), 8), 1 / std::numbers::pi * 0.6 / 6.25);
 }
@@ -208,6 +209,7 @@ TEST(Phong, addsAllLightsAndLeavesOutThoseBehind)
 {
     Scene scene = spotOnPlane(0.5f);
     scene.settings.integrator = INTEGRATOR_PHONG;
+    scene.settings.shading = SHADING_DIFFUSE;
     addPointLight(scene, {0, 1, 0}, 1);
     addPointLight(scene, {0, 2, 0}, 4);
     addPointLight(scene, {0, -1, 0}, 100);

@@ -75,6 +75,7 @@ Scene miroScene(const nlohmann::json& numbers, const fs::path& mesh)
     scene.background.reset();
     scene.probeTexels = {vec4(vec3(vectorOf(numbers["background_rgb"])), 0)};
     scene.settings.integrator = INTEGRATOR_PHONG;
+    scene.settings.shading = SHADING_DIFFUSE;
     scene.settings.jitter = false;
     return scene;
 }

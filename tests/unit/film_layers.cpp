@@ -66,6 +66,20 @@ TEST(StatisticsChannels, giveCountsAndTheVarianceOfTheMean)
     EXPECT_NEAR(channelNamed(channels, "variance.Y").values.at(0), 1, 1e-6);
 }
 
+TEST(StatisticsChannels, giveTheWorkOfAllSamples)
+{
+    Film film(1, 1);
+    PixelBlock block = {};
+    block.samplesDone = BLOCK_SIZE;
+    block.boxTests = 26;  // two at each node
+    block.primitiveTests = 5;
+    film.add(0, 0, 1, 1, 0, {&block, 1});
+    film.add(0, 0, 1, 1, BLOCK_SIZE, {&block, 1});
+    auto channels = statisticsChannels(film);
+    EXPECT_EQ(channelNamed(channels, "nodeVisits.Y").values.at(0), 26);
+    EXPECT_EQ(channelNamed(channels, "primitiveTests.Y").values.at(0), 10);
+}
+
 TEST(StatisticsChannels, haveNoVarianceOfOneSample)
 {
     Film film(1, 1);

@@ -67,6 +67,29 @@ TEST(Film, add_countsTheWork)
     EXPECT_EQ(film.counters, expected);
 }
 
+TEST(Film, add_countsTheWorkOfEachPixel)
+{
+    Film film(2, 1);
+    PixelBlock blocks[2] = {makeBlock(1, 8), makeBlock(1, 3)};
+    blocks[1].boxTests = 10;
+    film.add(0, 0, 2, 1, 0, blocks);
+    film.add(0, 0, 2, 1, BLOCK_SIZE, blocks);
+    EXPECT_EQ(film.work[0], (PixelWork{8, 10}));
+    EXPECT_EQ(film.work[1], (PixelWork{20, 10}));
+    Film merged = film;
+    merged.merge(film);
+    EXPECT_EQ(merged.work[1], (PixelWork{40, 20}));
+}
+
+TEST(PixelWork, staysAtTheLargestNumber)
+{
+    PixelWork work = {0xfffffff0u, 7};
+    work.add({0xfu, 1});
+    EXPECT_EQ(work, (PixelWork{0xffffffffu, 8}));
+    work.add({2, 1});
+    EXPECT_EQ(work, (PixelWork{0xffffffffu, 9}));
+}
+
 TEST(Film, add_saturatesOnSumsThatOverflowedToInfinity)
 {
     Film film(1, 1);

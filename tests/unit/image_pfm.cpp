@@ -1,4 +1,5 @@
 // PFM files written by hand, with the values they must have.
+#include "support/gzip_files.h"
 #include "support/pictures.h"
 
 #include <cmath>
@@ -33,6 +34,13 @@ TEST(Pfm, readPfm_undoesEncodePfmBitForBit)
 {
     const Image image = randomBitsImage(7, 5, 1);
     expectSameBits(readBytes(encodePfm(image)), image);
+}
+
+TEST(Pfm, readPfm_unpacksGzip)
+{
+    const Image image = randomBitsImage(7, 5, 2);
+    const FileBytes plain = encodePfm(image);
+    expectSameBits(readBytes(bytesOf(packed({plain.begin(), plain.end()}))), image);
 }
 
 TEST(Pfm, encodePfm_writesBottomRowFirst)

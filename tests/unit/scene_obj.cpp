@@ -208,7 +208,7 @@ TEST(Mtl, diffuseBecomesBaseColorAndEmissionIsKept)
     EXPECT_EQ(scene.materials[1].baseColor, vec3(0.7f));
     EXPECT_EQ(scene.materials[2].baseColor, vec3(1, 0, 0.5f));
     EXPECT_EQ(scene.materialNames[2], "hot");
-    EXPECT_CONTAINS(warning, "1 colours outside [0,1] (Kd) or below 0 (Ke) were clamped");
+    EXPECT_CONTAINS(warning, "1 colours outside [0,1] (Ka, Kd, Ks) or below 0 (Ke)");
 }
 
 TEST(Mtl, missingFileAndUnusedKeysAreToldAndBecomeGrey)
@@ -220,7 +220,29 @@ TEST(Mtl, missingFileAndUnusedKeysAreToldAndBecomeGrey)
     const std::string warning = warningsOf([&] { scene = files.load("a.obj"); });
     EXPECT_EQ(scene.materials.at(0).baseColor, vec3(0.7f));
     EXPECT_CONTAINS(warning, "a.obj:1: material file \"none.mtl\" is missing");
-    EXPECT_CONTAINS(warning, "m.mtl: only Kd and Ke are used; left out: Ns, map_Kd");
+    EXPECT_CONTAINS(warning, "m.mtl: only Ka, Kd, Ks, Ke and Ns are used; left out: map_Kd");
+}
+
+TEST(Mtl, ambientSpecularAndExponentAreForPhong)
+{
+    SceneFolder files;
+    files.write("m.mtl", "newmtl a\nKa 0.5 0.25 0\nKd 1 1 0.5\nKs 0.75 1 0\nNs 96\n"
+                         "newmtl b\nKd 0 0.5 1\nnewmtl c\nKs 0 3 0\nNs 2e6\n");
+    files.write("a.obj", "mtllib m.mtl\n" + TRIANGLE +
+                             "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\n");
+    Scene scene;
+    const std::string warning = warningsOf([&] { scene = files.load("a.obj"); });
+    EXPECT_EQ(scene.materials.at(0).ambientColor, vec3(0.5f, 0.25f, 0));
+    EXPECT_EQ(scene.materials[0].specularColor, vec3(0.75f, 1, 0));
+    EXPECT_EQ(scene.materials[0].shininess, 96.0f);
+    EXPECT_EQ(scene.materials.at(1).ambientColor, vec3(0, 0.5f, 1));  // its Kd
+    EXPECT_EQ(scene.materials[1].specularColor, vec3(0));
+    EXPECT_EQ(scene.materials[1].shininess, 50.0f);
+    EXPECT_EQ(scene.materials.at(2).specularColor, vec3(0, 1, 0));
+    EXPECT_EQ(scene.materials[2].shininess, 1e6f);
+    EXPECT_CONTAINS(warning, "2 colours outside [0,1] (Ka, Kd, Ks)");
+    files.write("m.mtl", "newmtl a\nKd 1 1 1\nNs many\n");
+    EXPECT_CONTAINS(errorOfFile(files, "a.obj"), "m.mtl:3: ");
 }
 
 TEST(Mtl, fileNamesMayHaveBlanks)

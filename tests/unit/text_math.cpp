@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace sahl {
 namespace {
@@ -64,6 +65,87 @@ TEST(Atan2Turns, isRightOnTheAxes)
     EXPECT_EQ(kernel.atan2Turns(-1, 0), -0.25f);
     EXPECT_EQ(std::abs(kernel.atan2Turns(0, -1)), 0.5f);
     EXPECT_EQ(kernel.atan2Turns(0, 0), 0.0f);
+}
+
+/// Numbers from 1e-30 up, in equal steps of their bits, and the neighbourhood of 1.
+std::vector<float> positiveNumbers()
+{
+    std::vector<float> numbers;
+    for (glm::uint bits = glm::floatBitsToUint(1e-30f); bits < glm::floatBitsToUint(1e30f); bits += 1021) {
+        numbers.push_back(glm::uintBitsToFloat(bits));
+    }
+    for (int i = -1000; i <= 1000; i++) {
+        numbers.push_back(glm::uintBitsToFloat(glm::floatBitsToUint(1.0f) + glm::uint(i)));
+    }
+    return numbers;
+}
+
+TEST(Log2Of, isWithin3e7OfTheLibraryEverywhere)
+{
+    Kernel<> kernel;
+    double worst = 0;
+    for (float x : positiveNumbers()) {
+        double exact = std::log2(double(x));
+        double found = kernel.log2Of(x);
+        if (exact == 0) {
+            EXPECT_EQ(found, 0.0);
+        } else {
+            worst = std::max(worst, std::abs(found / exact - 1));
+        }
+    }
+    EXPECT_LT(worst, 3e-7);
+    RecordProperty("worst", std::to_string(worst * 1e9));
+}
+
+TEST(Exp2Of, isWithin2e7OfTheLibrary)
+{
+    Kernel<> kernel;
+    double worst = 0;
+    for (int i = -126 * 4096; i <= 126 * 4096; i++) {
+        float y = float(i) / 4096;
+        worst = std::max(worst, std::abs(kernel.exp2Of(y) / std::exp2(double(y)) - 1));
+    }
+    EXPECT_LT(worst, 2e-7);
+    for (int k = -126; k <= 126; k++) EXPECT_EQ(kernel.exp2Of(float(k)), std::ldexp(1.0f, k));
+}
+
+TEST(Power, isWithinItsStatedErrorOfTheLibrary)
+{
+    Kernel<> kernel;
+    double worst = 0;
+    int compared = 0;
+    for (float n : {1e-30f, 0.01f, 0.5f, 1.0f, 2.0f, 7.3f, 50.0f, 1000.0f, 31415.9f, 1e6f}) {
+        for (float x : positiveNumbers()) {
+            if (x > 1 || x <= 1e-30f) continue;  // which counts as 0
+            double exact = std::pow(double(x), double(n));
+            float found = kernel.power(x, n);
+            ASSERT_TRUE(found >= 0 && found <= 1) << x << "^" << n << " = " << found;
+            if (exact < 1.6e-30) {
+                ASSERT_LT(found, 1.7e-30f) << x << "^" << n;
+                continue;
+            }
+            double bound = 3e-7 * (1 + std::abs(std::log(exact)));
+            worst = std::max(worst, std::abs(found / exact - 1) / bound);
+            compared++;
+        }
+    }
+    EXPECT_LT(worst, 1);
+    EXPECT_GT(compared, 1000000);
+}
+
+TEST(Power, isExactWhereItsValueIsPlain)
+{
+    Kernel<> kernel;
+    for (float n : {1e-30f, 0.5f, 1.0f, 50.0f, 1e6f, 3e38f}) {
+        EXPECT_EQ(kernel.power(1, n), 1.0f) << n;
+        EXPECT_EQ(kernel.power(0, n), 0.0f) << n;
+    }
+    for (float x : {0.0f, 1e-30f, 0.3f, 1.0f}) EXPECT_EQ(kernel.power(x, 0), 1.0f) << x;
+    EXPECT_EQ(kernel.power(0.5f, 1), 0.5f);
+    EXPECT_EQ(kernel.power(0.25f, 0.5f), 0.5f);
+    EXPECT_EQ(kernel.power(0.5f, 99), std::ldexp(1.0f, -99));
+    EXPECT_EQ(kernel.power(0.5f, 99.01f), 0.0f);
+    EXPECT_EQ(kernel.power(0.5f, 3e38f), 0.0f);
 }
 
 TEST(Selects, agreeWithTheLibraryOnNumbers)

@@ -1,0 +1,77 @@
+// The phong integrator: what a surface shows of ambient light and of the lights, without bounces.
+//
+//   L = Le + ka La + sum over the lights of (kd max(0, n.l) + ks max(0, r.v)^s) E / pi
+//
+// Phong 1975, "Illumination for Computer Generated Pictures", CACM 18(6). E is the irradiance of a
+// surface that faces the light, so E / pi is the radiance of a white one: kd means what it means to
+// the path integrator. The highlight is not normalised: a larger s makes it smaller and no brighter.
+//
+// n is the normal as the mesh has it, whichever side is seen, so both sides of a surface look alike.
+// One light is taken at a time, because a path has one shadow ray: PHASE_LIGHT, then PHASE_SHADOW
+// where a shadow ray is needed, then the next light.
+
+bool shadingHas(uint bit) { return (frame.shading & bit) != 0u; }
+
+/// What one light that is seen gives to the viewer by way of a surface. Nothing from a light on the
+/// side that n does not point to.
+///   wo  unit direction to the viewer
+vec3 phongReflection(Material material, vec3 n, vec3 wo, LightSample ls)
+{
+    float cosine = dot3(ls.wi, n);
+    if (!(cosine > 0.0f)) return vec3(0.0f);
+    vec3 f = vec3(0.0f);
+    if (shadingHas(SHADING_DIFFUSE)) {
+        f = material.baseColor * (diffuseShare(material) * (cosine * INV_PI));
+    }
+    if (shadingHas(SHADING_SPECULAR)) {
+        float cosR = dot3(reflected(-ls.wi, n), wo);
+        float lobe = power(min2(1.0f, max2(0.0f, cosR)), material.shininess);
+        f = f + material.specularColor * (lobe * INV_PI);
+    }
+    return flushed3(flushed3(f) * ls.Li);
+}
+
+/// Whether the surface itself keeps light from wi off the side that its shading normal points to.
+bool shadowsItself(SurfaceInteraction isect, vec3 wi)
+{
+    vec3 ng = dot3(isect.ng, isect.nsStored) < 0.0f ? -isect.ng : isect.ng;
+    return !(dot3(wi, ng) > 0.0f);
+}
+
+/// The next light's turn, or the end after the last.
+void passLight(INOUT(PathState) path)
+{
+    path.depth++;
+    path.phase = path.depth < frame.lightCount ? PHASE_LIGHT : PHASE_ENDED;
+}
+
+/// What happens where the camera ray ended: emission and ambient light; then the lights' turn comes.
+void beginPhong(Traversal hit, INOUT(PathState) path)
+{
+    tally.bounces++;
+    SurfaceInteraction isect = interactionAt(hit, path.org, path.dir);
+    Material material = loadMaterial(isect.material);
+    path.L = path.L + material.emission;
+    if (shadingHas(SHADING_AMBIENT)) {
+        path.L = path.L + flushed3(material.ambientColor * frame.ambient);
+    }
+    path.hit = hit;
+    path.phase = frame.lightCount != 0u ? PHASE_LIGHT : PHASE_ENDED;
+}
+
+/// Adds what one light gives, or sends a shadow ray whose arrival will add it.
+void shadeNextLight(INOUT(PathState) path)
+{
+    SurfaceInteraction isect = interactionAt(path.hit, path.org, path.dir);
+    LightSample ls = illuminate(loadLight(path.depth), isect.p);
+    path.Ld = phongReflection(loadMaterial(isect.material), isect.nsStored, -path.dir, ls);
+    if (!shadingHas(SHADING_SHADOWS)) {
+        path.L = path.L + path.Ld;
+        passLight(path);
+    } else if (maxComponent(path.Ld) > 0.0f && !shadowsItself(isect, ls.wi)) {
+        aimShadowRay(isect, ls, path);
+        path.phase = PHASE_SHADOW;
+    } else {
+        passLight(path);
+    }
+}
