@@ -242,7 +242,9 @@ Bvh buildTwoLevels(std::span<const Primitive> primitives,
         if (objects[placement.object].empty()) continue;
         reach = std::max(reach, reachOf(placedBox(placement, built.boxes[placement.object])));
     }
-    reach *= 1.001;  // origins are moved off the surfaces that they lie on
+    // Origins are moved off the surfaces that they lie on, and the camera of a saved scene away
+    // when the picture gets another shape.
+    reach *= 2;
     std::vector<ObjectInstance> instances;
     std::vector<Box> instanceBoxes;
     std::vector<double> costs;

@@ -4,7 +4,9 @@
 
 namespace sahl {
 
-DeviceScene PreparedScene::deviceScene() const
+namespace {
+
+DeviceScene ownArrays(const Scene& scene, const Bvh& bvh)
 {
     DeviceScene view;
     view.nodes = bvh.nodes;
@@ -12,26 +14,9 @@ DeviceScene PreparedScene::deviceScene() const
     view.triangleNormals = scene.triangleNormals;
     view.materials = scene.materials;
     view.lights = scene.lights;
-    view.probeTexels = scene.probeTexels;
     view.instances = bvh.instances;
-    view.treeDepth = bvh.statistics.depth;
-    view.frame.camera = scene.camera;
-    view.frame.probe = scene.probe;
-    view.frame.background = scene.background.value_or(scene.probe);
-    view.frame.width = scene.settings.width;
-    view.frame.height = scene.settings.height;
-    view.frame.seed = scene.settings.seed;
-    view.frame.maxBounces = scene.settings.maxBounces;
-    view.frame.rootRef = bvh.rootRef;
-    view.frame.lightCount = static_cast<uint>(scene.lights.size());
-    view.frame.integrator = scene.settings.integrator;
-    view.frame.jitter = scene.settings.jitter ? 1 : 0;
-    view.frame.ambient = scene.settings.ambient;
-    view.frame.shading = scene.settings.shading;
     return view;
 }
-
-namespace {
 
 /// Largest coordinate at which a ray of the camera may start.
 double reachOf(const Camera& camera)
@@ -44,6 +29,27 @@ double reachOf(const Camera& camera)
 }
 
 }  // namespace
+
+DeviceScene PreparedScene::deviceScene() const
+{
+    DeviceScene view = borrowed ? *borrowed : ownArrays(scene, bvh);
+    if (!borrowed || !scene.probeTexels.empty()) view.probeTexels = scene.probeTexels;
+    view.treeDepth = bvh.statistics.depth;
+    view.frame.camera = scene.camera;
+    view.frame.probe = scene.probe;
+    view.frame.background = scene.background.value_or(scene.probe);
+    view.frame.width = scene.settings.width;
+    view.frame.height = scene.settings.height;
+    view.frame.seed = scene.settings.seed;
+    view.frame.maxBounces = scene.settings.maxBounces;
+    view.frame.rootRef = bvh.rootRef;
+    view.frame.lightCount = static_cast<uint>(view.lights.size());
+    view.frame.integrator = scene.settings.integrator;
+    view.frame.jitter = scene.settings.jitter ? 1 : 0;
+    view.frame.ambient = scene.settings.ambient;
+    view.frame.shading = scene.settings.shading;
+    return view;
+}
 
 PreparedScene prepareScene(Scene scene, BvhBuild build, unsigned threads)
 {

@@ -5,6 +5,9 @@
 #include "device/device.h"
 #include "scene/scene.h"
 
+#include <memory>
+#include <optional>
+
 namespace sahl {
 
 /// A scene with its tree. scene.primitives, objects and instances are empty: they are in bvh, the
@@ -12,6 +15,11 @@ namespace sahl {
 struct PreparedScene {
     Scene scene;
     Bvh bvh;
+
+    /// Set for a scene that lies in a mapped file: then its arrays are read there and those of `scene`
+    /// and `bvh` are empty, but for probeTexels where another probe took the place of the saved one.
+    std::optional<DeviceScene> borrowed;
+    std::shared_ptr<const MappedFile> file;
 
     /// Views into this object, which must outlive the device's use of them.
     DeviceScene deviceScene() const;
