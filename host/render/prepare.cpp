@@ -2,7 +2,9 @@
 
 namespace sahl {
 
-DeviceScene PreparedScene::deviceScene() const
+namespace {
+
+DeviceScene ownArrays(const Scene& scene, const Bvh& bvh)
 {
     DeviceScene view;
     view.nodes = bvh.nodes;
@@ -10,7 +12,15 @@ DeviceScene PreparedScene::deviceScene() const
     view.triangleNormals = scene.triangleNormals;
     view.materials = scene.materials;
     view.lights = scene.lights;
-    view.probeTexels = scene.probeTexels;
+    return view;
+}
+
+}  // namespace
+
+DeviceScene PreparedScene::deviceScene() const
+{
+    DeviceScene view = borrowed ? *borrowed : ownArrays(scene, bvh);
+    if (!borrowed || !scene.probeTexels.empty()) view.probeTexels = scene.probeTexels;
     view.treeDepth = bvh.statistics.depth;
     view.frame.camera = scene.camera;
     view.frame.probe = scene.probe;
@@ -20,7 +30,7 @@ DeviceScene PreparedScene::deviceScene() const
     view.frame.seed = scene.settings.seed;
     view.frame.maxBounces = scene.settings.maxBounces;
     view.frame.rootRef = bvh.rootRef;
-    view.frame.lightCount = static_cast<uint>(scene.lights.size());
+    view.frame.lightCount = static_cast<uint>(view.lights.size());
     view.frame.integrator = scene.settings.integrator;
     view.frame.jitter = scene.settings.jitter ? 1 : 0;
     view.frame.ambient = scene.settings.ambient;

@@ -33,7 +33,7 @@ Scene loadMeshScene(const fs::path& path, const SceneOptions& options)
         applyProbeOption(scene, options);
     else
         useStudioProbe(scene, options);
-    scene.camera = makeCamera(framePrimitives(scene), scene.settings.width, scene.settings.height);
+    placeCamera(scene, framePrimitives(scene));
     if (scene.settings.integrator == INTEGRATOR_PHONG) addHeadLight(scene);
     return scene;
 }
@@ -139,7 +139,7 @@ Scene builtInScene(const SceneOptions& options)
     camera.eye = {0.6, 2.4, 6.5};
     camera.lookAt = {0, 0.9, 0};
     camera.fovDeg = 36;
-    scene.camera = makeCamera(camera, scene.settings.width, scene.settings.height);
+    placeCamera(scene, camera);
     return scene;
 }
 

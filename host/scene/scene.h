@@ -37,6 +37,33 @@ struct RenderSettings {
     vec3 ambient = vec3(0.1f);         ///< for phong: radiance from everywhere [W m^-2 sr^-1]
 };
 
+/// What points right and up in the picture, of any length, at a right angle to each other. The
+/// camera looks along up x right, or along right x up in a left-handed space.
+struct CameraAxes {
+    glm::dvec3 right = {1, 0, 0};
+    glm::dvec3 up = {0, 1, 0};
+    bool leftHanded = false;
+};
+
+/// A box that the picture is to show all of.
+struct FramedBox {
+    glm::dvec3 lo, hi;
+};
+
+/// Camera as people describe it. Field of view in degrees of the named axis.
+struct CameraDescription {
+    glm::dvec3 eye = {0, 0, 5};
+    glm::dvec3 lookAt = {0, 0, 0};
+    glm::dvec3 up = {0, 1, 0};
+    std::optional<CameraAxes> axes;  ///< instead of lookAt and up
+    double fovDeg = 40;
+    bool fovHorizontal = false;
+    std::optional<double> orthographicHeight;  ///< of what is seen [m], instead of a field of view
+    double lensRadius = 0;                     ///< of a thin lens [m]; 0: all is sharp
+    std::optional<double> focusDistance;       ///< along the view [m]; without it: to lookAt
+    std::optional<FramedBox> framed;           ///< moves eye so that all of it is in the picture
+};
+
 /// Everything a picture is made of, before the tree is built. Primitives are in the order in which
 /// the files gave them; primitives[i].number == i.
 struct Scene {
@@ -52,34 +79,17 @@ struct Scene {
     std::optional<Probe> background;  ///< what the camera sees behind the scene, if not the probe
     std::vector<vec4> probeTexels;    ///< of both
     Camera camera = {};  ///< `right` set for settings.width x settings.height, see makeCamera
+    std::optional<CameraDescription> cameraDescription;  ///< what `camera` was made from
     uint64_t droppedTriangles = 0;  ///< of zero area, left out while reading
-};
-
-/// What points right and up in the picture, of any length, at a right angle to each other. The
-/// camera looks along up x right, or along right x up in a left-handed space.
-struct CameraAxes {
-    glm::dvec3 right = {1, 0, 0};
-    glm::dvec3 up = {0, 1, 0};
-    bool leftHanded = false;
-};
-
-/// Camera as people describe it. Field of view in degrees of the named axis.
-struct CameraDescription {
-    glm::dvec3 eye = {0, 0, 5};
-    glm::dvec3 lookAt = {0, 0, 0};
-    glm::dvec3 up = {0, 1, 0};
-    std::optional<CameraAxes> axes;  ///< instead of lookAt and up
-    double fovDeg = 40;
-    bool fovHorizontal = false;
-    std::optional<double> orthographicHeight;  ///< of what is seen [m], instead of a field of view
-    double lensRadius = 0;                     ///< of a thin lens [m]; 0: all is sharp
-    std::optional<double> focusDistance;       ///< along the view [m]; without it: to lookAt
 };
 
 /// The device's camera for a picture of the given size. Throws badInput when eye and lookAt
 /// coincide, up is parallel to the view, fovDeg is outside (0, 180), axes are zero or not at a
 /// right angle (to 1e-4), or a lens has nothing to focus on.
 Camera makeCamera(const CameraDescription& description, uint32_t width, uint32_t height);
+
+/// Gives the scene the described camera, for its picture's size. Throws as makeCamera does.
+void placeCamera(Scene& scene, const CameraDescription& description);
 
 /// What the command line adds to or changes in a scene.
 struct SceneOptions {

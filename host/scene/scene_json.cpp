@@ -67,10 +67,10 @@ Scene loadJsonScene(const fs::path& path, const SceneOptions& options)
         readEnvironment(reading, *environment);
     if (const JsonNode* background = file.find("background")) readBackground(reading, *background);
 
-    const JsonNode* camera = file.find("camera");
-    scene.camera =
-        camera ? readCamera(reading, *camera)
-               : makeCamera(framePrimitives(scene), scene.settings.width, scene.settings.height);
+    if (const JsonNode* camera = file.find("camera"))
+        readCamera(reading, *camera);
+    else
+        placeCamera(scene, framePrimitives(scene));
     return scene;
 }
 

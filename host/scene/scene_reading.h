@@ -38,8 +38,8 @@ void readLight(SceneReading& reading, const JsonNode& node);
 void readEnvironment(SceneReading& reading, const JsonNode& node);
 void readBackground(SceneReading& reading, const JsonNode& node);
 
-/// "camera", once all shapes are read: it may focus on one of them.
-Camera readCamera(SceneReading& reading, const JsonNode& node);
+/// Places the scene's "camera", once all shapes are read: it may focus on one of them.
+void readCamera(SceneReading& reading, const JsonNode& node);
 
 /// An object of axis and angle.
 ///   what  names it in messages: "\"rotateDeg\" of the environment"

@@ -20,7 +20,8 @@ TEST(Usage, noArguments_showAShortUsageOnStderr)
     RunResult result = sahl({});
     EXPECT_EQ(result.exitCode, 2);
     EXPECT_EQ(result.out, "");
-    EXPECT_EQ(result.err, "usage: sahl render|tonemap|verify|devices|bench [options]\ntry: sahl --help\n");
+    EXPECT_EQ(result.err,
+              "usage: sahl render|tonemap|verify|bvh|devices|bench [options]\ntry: sahl --help\n");
 }
 
 TEST(Usage, helpAndVersion_goToStdout)
@@ -99,7 +100,7 @@ TEST(Usage, unknownCommand_suggestsTheNearest)
 
 TEST(Usage, missingAndExtraWords_areNamed)
 {
-    expectUsageError({"render"}, "'sahl render' needs a scene: a .json or .obj file");
+    expectUsageError({"render"}, "'sahl render' needs a scene: a .json, .obj or .ply file");
     expectUsageError({"tonemap"}, "'sahl tonemap' needs a picture: an .exr, .hdr or .pfm file");
     expectUsageError({"render", "x.json", "--spp"}, "--spp needs a value: N");
     expectUsageError({"render", "x.json", "-o"}, "--output needs a value: FILE");
