@@ -113,9 +113,9 @@ FIGURES = [
     Figure(12, "Shadow rays",
            "A light to the right, a wall behind. Without shadow rays everything that faces the light is lit; "
            "with them spheres throw shadows onto the wall, and the teapot's neck one onto its body.",
-           [render("off", "fig12/shadows.json", "--shadows", "off", "--tone-map", "exposure", "--gamma", "1.5",
+           [render("off", "fig12/shadows.json", "--shadows", "off", "--tone-map", "exposure", "--gamma", "1.8",
                    "-o", "@off.png"),
-            render("on", "fig12/shadows.json", "--shadows", "on", "--tone-map", "exposure", "--gamma", "1.5",
+            render("on", "fig12/shadows.json", "--shadows", "on", "--tone-map", "exposure", "--gamma", "1.8",
                    "-o", "@on.png")],
            [Pane("off.png", "without shadow rays", "withoutshadow"), Pane("on.png", "with", "withshadow")],
            fitted_teapot=True),
