@@ -157,7 +157,7 @@ dvec3 basilicaWall(const Sight& s)
     const double columns = smoothStep(0.5, 0.9, -sinDeg(108 * s.azimuth + 90));
     wall = blend(wall, {0.85, 0.4, 0.12}, 0.8 * canopy);
     wall = blend(wall, {0.05, 0.022, 0.013}, canopy * columns);
-    return wall + dvec3(11, 4.6, 1.1) * spot(s, 0, 12, 1.5, 0.7);
+    return wall + dvec3(6.5, 2.9, 0.7) * spot(s, 0, 12, 1.5, 0.7);
 }
 
 dvec3 basilica(double azimuth, double elevation)
@@ -166,9 +166,9 @@ dvec3 basilica(double azimuth, double elevation)
     const double coffer = checks(azimuth / 15 + 0.5, elevation / 6, 1);
     dvec3 dome = blend(dvec3(0.5, 0.3, 0.2), {0.34, 0.19, 0.12}, 0.5 + 0.5 * coffer);
     const Bay bay = bayOf(azimuth, 45);
-    dome = blend(dome, {8.5, 9, 10.5},
-                 softBand(-0.28, 0.28, 0.05, bay.across) * softBand(58, 66, 0.8, elevation));
-    dome = blend(dome, {15, 14.5, 13.5}, smoothStep(82, 84.5, elevation));  // the lantern
+    dome = blend(dome, {3.4, 3.5, 3.9},
+                 softBand(-0.42, 0.42, 0.05, bay.across) * softBand(58, 66, 0.8, elevation));
+    dome = blend(dome, {5.2, 5, 4.7}, smoothStep(76, 79, elevation));  // the lantern
     if (elevation < 0 && s.height < -EYE) return basilicaFloor(s);
     return blend(basilicaWall(s), dome, smoothStep(12.8, 13.2, s.height));
 }

@@ -186,7 +186,7 @@ TEST(Churches, haveWindowsManyTimesBrighterThanTheirWalls)
         std::vector<float> values = makeBuiltinProbe(name).rgb;
         const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
         std::nth_element(values.begin(), middle, values.end());
-        EXPECT_GT(*std::max_element(values.begin(), values.end()), 30 * *middle) << name;
+        EXPECT_GT(*std::max_element(values.begin(), values.end()), 20 * *middle) << name;
     }
 }
 

@@ -113,9 +113,9 @@ FIGURES = [
     Figure(12, "Shadow rays",
            "A light to the right, a wall behind. Without shadow rays everything that faces the light is lit; "
            "with them spheres throw shadows onto the wall, and the teapot's neck one onto its body.",
-           [render("off", "fig12/shadows.json", "--shadows", "off", "--tone-map", "exposure", "--gamma", "1.5",
+           [render("off", "fig12/shadows.json", "--shadows", "off", "--tone-map", "exposure", "--gamma", "1.8",
                    "-o", "@off.png"),
-            render("on", "fig12/shadows.json", "--shadows", "on", "--tone-map", "exposure", "--gamma", "1.5",
+            render("on", "fig12/shadows.json", "--shadows", "on", "--tone-map", "exposure", "--gamma", "1.8",
                    "-o", "@on.png")],
            [Pane("off.png", "without shadow rays", "withoutshadow"), Pane("on.png", "with", "withshadow")],
            fitted_teapot=True),
@@ -170,8 +170,8 @@ FIGURES = [
     Figure(21, "Adaptive path tracing",
            "The report's rule stops a pixel once its mean hardly moves, after 20 samples at the least and "
            "1,000 at most. The map shows where the samples went: to the diffuse teapot and to the rims of "
-           "the spheres. A rule that looks at the samples it decides about is biased; docs/adaptive.md "
-           "says by how much.",
+           "the spheres. A rule that looks at the samples it decides about is biased: pixels with rare bright "
+           "samples stop before they have met one.",
            [render("picture", "fig21/adaptive.json", "-o", "@picture.png", "--map", "samples=@samples.png",
                    "--map-colors", "viridis", "--map-range", "1:1000", "--map-scale", "off",
                    quick=["--min-spp", "2", "--max-spp", "4"])],

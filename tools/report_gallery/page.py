@@ -82,18 +82,18 @@ def panes(setting, figure, results):
 
 
 def references(setting, figure):
-    """The report's own pictures of the figure, where they are at hand."""
+    """The report's own pictures of the figure below ours, where they are at hand."""
     if setting.assets is None:
         return ""
     folder = setting.assets / "references" / "pytracer"
-    cells = []
-    for pane in figure.panes:
-        picture = pane.reference and image(folder / f"{pane.reference}.png",
-                                           f"The report's figure {figure.number}: {pane.label}")
-        if picture:
-            cells.append(f"<figure>{picture}<figcaption>the report: {html.escape(pane.label)}"
-                         "</figcaption></figure>")
-    return f"<details open><summary>What the report showed</summary>{row(cells)}</details>" if cells else ""
+    pictures = [pane.reference and image(folder / f"{pane.reference}.png",
+                                         f"The report's figure {figure.number}: {pane.label}")
+                for pane in figure.panes]
+    if not any(pictures):
+        return ""
+    cells = [f"<figure>{picture}<figcaption>the report&#8217;s</figcaption></figure>" if picture
+             else "<span></span>" for picture in pictures]
+    return f"<details open><summary>What the report showed</summary>{row(cells)}</details>"
 
 
 def step_facts(result):

@@ -8,7 +8,10 @@ COLUMNS = [("nodes", "nodes"), ("primitives", "leaves"), ("nodeVisits", "ray tra
 
 
 def number(value):
-    return f"{value:.2f}" if isinstance(value, float) else f"{value:,}"
+    """Counts and the report's whole seconds without decimals, ours with as many as tell something."""
+    if isinstance(value, int) or value == int(value):
+        return f"{int(value):,}"
+    return f"{value:.2f}" if value >= 0.1 else f"{value:.2g}"
 
 
 def cell(row, key):
