@@ -52,9 +52,11 @@ int run(int argc, char** argv)
     std::map<std::string, Command> commands = {{"render", addRenderCommand(app)},
                                                {"tonemap", addTonemapCommand(app)},
                                                {"verify", addVerifyCommand(app)},
-                                               {"devices", addDevicesCommand(app)}};
+                                               {"bvh", addBvhCommand(app)},
+                                               {"devices", addDevicesCommand(app)},
+                                               {"bench", addBenchCommand(app)}};
     if (argc < 2) {
-        say("usage: sahl render|tonemap|verify|devices [options]\ntry: sahl --help\n");
+        say("usage: sahl render|tonemap|verify|bvh|devices|bench [options]\ntry: sahl --help\n");
         return static_cast<int>(ErrorKind::usage);
     }
     app.require_subcommand(1);

@@ -14,6 +14,14 @@ std::vector<std::string> quantityNames()
     return names;
 }
 
+/// Breaks a text at the blank next to its middle.
+std::string twoLines(std::string text)
+{
+    const size_t blank = text.find(' ', text.size() / 2);
+    if (blank != std::string::npos) text[blank] = '\n';
+    return text;
+}
+
 MapOptions::Request parseMap(const std::string& text)
 {
     const size_t equals = text.find('=');
@@ -52,8 +60,8 @@ void addMapOptions(CLI::App& command, MapOptions& options)
     command
         .add_option_function<std::vector<std::string>>(
             "--map", setMaps,
-            withDefault("NAME=FILE.png, repeatable: a picture of " + enumeration(quantityNames()) +
-                            "\n(docs/maps.md)",
+            withDefault(twoLines("NAME=FILE.png, a picture of " + enumeration(quantityNames())) +
+                            "\n(docs/maps.md); repeatable",
                         "none"))
         ->type_name("MAP")
         ->expected(1)
@@ -65,7 +73,7 @@ void addMapOptions(CLI::App& command, MapOptions& options)
     command
         .add_option_function<std::string>(
             "--map-range", [&style](const std::string& text) { parseRange(text, style); },
-            withDefault("what the ends of the colours stand for", "smallest and largest value"))
+            withDefault("values at the ends of the colours", "smallest and largest"))
         ->type_name("LO:HI")
         ->group("Maps");
     addChoice(command, "--map-scale", style.scale, {{"on", true}, {"off", false}},

@@ -4,6 +4,7 @@
 #include "app/option_kinds.h"
 #include "app/shading_options.h"
 #include "film/film.h"
+#include "saved/saved_scene.h"
 #include "util/error.h"
 #include "util/memory.h"
 #include "util/messages.h"
@@ -140,6 +141,25 @@ Scene loadSceneFor(const CommonOptions& options)
 {
     if (options.scenePath.empty()) return builtInScene(options.scene);
     return loadScene(options.scenePath, options.scene);
+}
+
+PreparedScene prepareSceneFor(const CommonOptions& options,
+                              const std::function<void(const Scene&)>& onceRead)
+{
+    const SavedForm form = savedFormOf(options.scenePath);
+    if (form == SavedForm::none) {
+        Scene scene = loadSceneFor(options);
+        onceRead(scene);
+        return prepareScene(std::move(scene), options.bvhBuild, threadsFor(options));
+    }
+    if (options.bvhBuild != BvhBuild::automatic) {
+        throw usageError("{}: has its tree with it; --bvh-build needs the scene that it was saved "
+                         "from",
+                         options.scenePath);
+    }
+    PreparedScene prepared = loadSaved(form, options.scenePath, options.scene);
+    onceRead(prepared.scene);
+    return prepared;
 }
 
 std::unique_ptr<Device> openDeviceFor(const CommonOptions& options)

@@ -3,10 +3,12 @@
 
 #include "bvh/bvh.h"
 #include "device/device.h"
+#include "render/prepare.h"
 #include "scene/scene.h"
 
 #include <CLI/CLI.hpp>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,12 @@ void addMessageOptions(CLI::App& command, CommonOptions& options);
 
 /// Loads options.scenePath, or the built-in scene when it is empty.
 Scene loadSceneFor(const CommonOptions& options);
+
+/// Loads the scene and builds its tree; a saved scene (saved/saved_scene.h) has it already, and options
+/// that would need another are refused (usage).
+///   onceRead  called as soon as the scene is known and before the tree is built
+PreparedScene prepareSceneFor(const CommonOptions& options,
+                              const std::function<void(const Scene&)>& onceRead);
 
 /// Opens options.device and tells the user what was chosen, unless --quiet.
 std::unique_ptr<Device> openDeviceFor(const CommonOptions& options);

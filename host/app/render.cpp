@@ -3,10 +3,12 @@
 #include "render/render.h"
 #include "app/adaptive.h"
 #include "app/commands.h"
+#include "app/crop.h"
 #include "app/map_options.h"
 #include "app/option_kinds.h"
 #include "app/options.h"
 #include "app/outputs.h"
+#include "app/partial.h"
 #include "app/progress.h"
 #include "app/shading_options.h"
 #include "app/stats.h"
@@ -30,6 +32,8 @@ struct RenderOptions {
     OutputOptions output;
     MapOptions maps;
     std::string statsPath;
+    std::optional<CropWindow> crop;
+    std::optional<double> partialSeconds;
 };
 
 void addOutputOptions(CLI::App& command, RenderOptions& options)
@@ -48,6 +52,7 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
     addFlag(command, "--aovs", output.firstHits,
             "albedo, normals, depth, position and ids as layers of\nevery .exr (docs/exr.md)")
         ->group("Output");
+    addPartialOption(command, options.partialSeconds);
     command
         .add_option("--stats", options.statsPath,
                     withDefault("write statistics as JSON (docs/stats.md)", "none"))
@@ -91,33 +96,20 @@ std::vector<fs::path> checkOutputs(const RenderOptions& options)
 /// What camera rays meet, as channels of the EXR. Made before the light, so that a picture that gets
 /// interrupted has them too.
 std::vector<ImageChannel> firstHitLayers(const RenderOptions& options, const PreparedScene& prepared,
-                                         Device& device)
+                                         const RenderPlan& plan, Device& device)
 {
     if (!options.output.firstHits && !needFirstHits(options.maps)) return {};
-    const RenderSettings& settings = prepared.scene.settings;
-    uint32_t samples = std::min(BLOCK_SIZE, mostSamples(settings));
-    return firstHitChannels(renderFirstHits(device, settings.width, settings.height, samples), samples,
+    uint32_t samples = std::min(BLOCK_SIZE, plan.sampleCount);
+    return firstHitChannels(renderFirstHits(device, plan, samples), samples,
                             prepared.scene.objectStarts);
 }
 
-/// Renders all samples, or as many as the scene's rule wants.
-AdaptiveResult renderLight(Device& device, const RenderOptions& options, const RenderSettings& settings)
+AdaptiveReport reportOf(const RenderSettings& settings, const RenderResult& result)
 {
-    ProgressPrinter printer(options.common.progress, options.common.quiet, mostSamples(settings));
-    auto report = [&](const RenderProgress& progress) { printer.update(progress); };
-    RenderPlan plan = {settings.width, settings.height, 0, settings.spp, options.common.tileSize};
-    AdaptiveResult result = isAdaptive(settings) ? renderAdaptive(device, plan, settings.adaptive, report)
-                                                 : AdaptiveResult{renderPicture(device, plan, report), {}};
-    printer.finish();
-    return result;
+    return {settings.adaptive, result.adaptive, result.film.counters.cameraRays};
 }
 
-AdaptiveReport reportOf(const RenderSettings& settings, const AdaptiveResult& result)
-{
-    return {settings.adaptive, result.outcome, result.render.film.counters.cameraRays};
-}
-
-ImageMetadata metadataOf(const Scene& scene, const AdaptiveResult& result, uint32_t samplesTaken,
+ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_t samplesTaken,
                          const Device& device)
 {
     DeviceInfo info = device.info();
@@ -131,12 +123,25 @@ ImageMetadata metadataOf(const Scene& scene, const AdaptiveResult& result, uint3
                                  {"sahl.maxBounces", std::to_string(scene.settings.maxBounces)},
                                  {"sahl.firstSample", "0"},
                                  {"sahl.sampleCount", std::to_string(samplesTaken)},
-                                 {"sahl.passes", std::to_string(result.render.passes)},
-                                 {"sahl.interrupted", result.render.interrupted ? "yes" : "no"},
+                                 {"sahl.passes", std::to_string(result.passes)},
+                                 {"sahl.interrupted", result.interrupted ? "yes" : "no"},
                                  {"sahl.device", info.name},
                                  {"sahl.driver", info.driver}});
     if (isAdaptive(scene.settings)) metadata.merge(adaptiveMetadata(reportOf(scene.settings, result)));
     return metadata;
+}
+
+/// Looks at --crop now that the size of the picture is known. Returns the size of the film.
+RenderSettings applyCrop(RenderOptions& options, RenderSettings settings)
+{
+    const CropWindow window = clipCrop(options.crop, settings.width, settings.height);
+    if (options.crop) {
+        options.crop = window;
+        options.output.place = {window.x, window.y, settings.width, settings.height};
+    }
+    settings.width = window.width;
+    settings.height = window.height;
+    return settings;
 }
 
 void printSummary(const RenderOptions& options, const PreparedScene& prepared,
@@ -146,7 +151,7 @@ void printSummary(const RenderOptions& options, const PreparedScene& prepared,
     const Counters& counters = result.film.counters;
     uint64_t rays = counters.cameraRays + counters.indirectRays + counters.shadowRays;
     say("{} primitives, {} samples, {} rays in {:.1f} s ({:.2f} Msamples/s, {:.2f} Mrays/s)\n",
-        prepared.bvh.primitives.size(), counters.cameraRays, rays, result.seconds,
+        prepared.deviceScene().primitives.size(), counters.cameraRays, rays, result.seconds,
         double(counters.cameraRays) / std::max(result.seconds, 1e-9) * 1e-6,
         double(rays) / std::max(result.seconds, 1e-9) * 1e-6);
     if (counters.badSamples > 0) {
@@ -155,20 +160,56 @@ void printSummary(const RenderOptions& options, const PreparedScene& prepared,
     }
 }
 
-/// Writes all but the statistics.
+/// Writes all but the statistics; of a picture that is not finished the outputs alone.
 void writeAll(const RenderOptions& options, const Film& film, std::vector<ImageChannel> firstHits,
-              const ImageMetadata& metadata)
+              const ImageMetadata& metadata, bool partial)
 {
     std::vector<ImageChannel> channels = statisticsChannels(film);
     const size_t always = channels.size();
     std::move(firstHits.begin(), firstHits.end(), std::back_inserter(channels));
     std::span<const ImageChannel> layers = channels;
     if (!options.output.firstHits) layers = layers.first(always);  // the rest is for the maps
+    if (partial) return writePartialOutputs(film, options.output, metadata, layers);
     writeOutputs(film, options.output, metadata, layers);
     writeMaps(options.maps, channels, film.width, film.height, metadata);
     if (!options.output.tone.histogram.empty()) {
         writeHistogram(meanImage(film), options.output.tone, metadata);
     }
+}
+
+/// Writes the finished picture, or what there is of it after some of the passes.
+void writePictures(const RenderOptions& options, const Scene& scene, const RenderResult& result,
+                   const Device& device, std::vector<ImageChannel> firstHits, bool partial)
+{
+    uint32_t samplesTaken = std::min(mostSamples(scene.settings), result.passes * BLOCK_SIZE);
+    ImageMetadata metadata = metadataOf(scene, result, samplesTaken, device);
+    if (options.crop) metadata["sahl.crop"] = cropText(*options.crop);
+    if (partial) metadata["sahl.partial"] = "yes";
+    writeAll(options, result.film, std::move(firstHits), metadata, partial);
+}
+
+/// Renders all samples, or as many as the scene's rule wants, with progress and partial pictures.
+RenderResult renderLight(const RenderOptions& options, const Scene& scene, const RenderPlan& plan,
+                         const std::vector<ImageChannel>& firstHits, Device& device)
+{
+    ProgressPrinter printer(options.common.progress, options.common.quiet, plan.sampleCount);
+    auto report = [&](const RenderProgress& progress) { printer.update(progress); };
+    PartialPictures partial(options.partialSeconds.value_or(0), [&](const RenderResult& soFar) {
+        writePictures(options, scene, soFar, device, firstHits, true);
+    });
+    RenderResult result;
+    if (isAdaptive(scene.settings)) {
+        result = renderAdaptive(device, plan, scene.settings.adaptive, report,
+                                [&](const std::function<RenderResult()>& soFar) {
+                                    if (options.partialSeconds && partial.isDue()) partial.passDone(soFar());
+                                });
+    } else {
+        result = renderPicture(device, plan, report, [&](const RenderResult& soFar) {
+            if (options.partialSeconds) partial.passDone(soFar);
+        });
+    }
+    printer.finish();
+    return result;
 }
 
 /// What a signal left of the picture. Without a single sample no file is replaced.
@@ -206,41 +247,45 @@ int runRender(RenderOptions& options)
 
     Stopwatch watch;
     StageSeconds seconds;
-    Scene scene = loadSceneFor(options.common);
-    refuseToReplaceInputs(outputs);
-    requireFilmMemory(scene.settings, 1);
-    seconds.load = watch.lap();
-    PreparedScene prepared =
-        prepareScene(std::move(scene), options.common.bvhBuild, threadsFor(options.common));
+    RenderSettings filmSettings;
+    PreparedScene prepared = prepareSceneFor(options.common, [&](const Scene& scene) {
+        refuseToReplaceInputs(outputs);
+        filmSettings = applyCrop(options, scene.settings);
+        requireFilmMemory(filmSettings, 1);
+        seconds.load = watch.lap();
+    });
     seconds.build = watch.lap();
     std::unique_ptr<Device> device = openDeviceFor(options.common);
     device->setScene(prepared.deviceScene());
     seconds.upload = watch.lap();
 
     const RenderSettings& settings = prepared.scene.settings;
-    std::vector<ImageChannel> firstHits = firstHitLayers(options, prepared, *device);
+    RenderPlan plan = {filmSettings.width, filmSettings.height, 0, mostSamples(settings),
+                       options.common.tileSize};
+    if (options.crop) {
+        plan.left = options.crop->x;
+        plan.top = options.crop->y;
+    }
+    std::vector<ImageChannel> firstHits = firstHitLayers(options, prepared, plan, *device);
     seconds.firstHits = watch.lap();
-    AdaptiveResult light = renderLight(*device, options, settings);
-    const RenderResult& result = light.render;
+    RenderResult result = renderLight(options, prepared.scene, plan, firstHits, *device);
     seconds.render = watch.lap();
 
     if (result.interrupted) sayInterrupted(options, settings, result);
     if (result.film.counters.cameraRays == 0) return interruptedExitCode();
 
-    uint32_t samplesTaken = std::min(mostSamples(settings), result.passes * BLOCK_SIZE);
-    writeAll(options, result.film, std::move(firstHits),
-             metadataOf(prepared.scene, light, samplesTaken, *device));
+    writePictures(options, prepared.scene, result, *device, std::move(firstHits), false);
     seconds.write = watch.lap();
     seconds.total = watch.total();
     if (!options.statsPath.empty()) {
         auto json = statisticsJson(prepared, result.film, *device, seconds);
-        if (isAdaptive(settings)) json["adaptive"] = adaptiveJson(reportOf(settings, light));
+        if (isAdaptive(settings)) json["adaptive"] = adaptiveJson(reportOf(settings, result));
         writeFileAtomically(options.statsPath, json.dump(2) + "\n");
     }
 
     printSummary(options, prepared, result);
     if (isAdaptive(settings) && !options.common.quiet) {
-        say("{}\n", adaptiveSummary(reportOf(settings, light)));
+        say("{}\n", adaptiveSummary(reportOf(settings, result)));
     }
     if (options.common.verbose) printDetails(prepared, *device);
     if (!options.common.quiet) {
@@ -258,12 +303,15 @@ Command addRenderCommand(CLI::App& app)
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command =
         app.add_subcommand("render", "render a scene into pictures")->group("Commands");
-    command->add_option("scene", options->common.scenePath, "scene (.json) or mesh (.obj, .ply)")
+    command
+        ->add_option("scene", options->common.scenePath,
+                     "scene (.json), mesh (.obj, .ply) or saved scene (.sahl)")
         ->required()
         ->type_name("SCENE");
     addOutputOptions(*command, *options);
     addMapOptions(*command, options->maps);
     addSceneOptions(*command, options->common);
+    addCropOption(*command, options->crop);
     addDeviceOptions(*command, options->common);
     addMessageOptions(*command, options->common);
     command->footer(

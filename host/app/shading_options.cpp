@@ -58,14 +58,14 @@ void addShadingOptions(CLI::App& command, SceneOptions& scene)
     command
         .add_option_function<std::string>(
             "--terms", setTerms,
-            withDefault("of phong: ambient, diffuse, specular, or several\nwith commas between",
+            withDefault("of phong: ambient, diffuse, specular; commas between\nseveral",
                         "the scene's, else all"))
         ->type_name("NAMES")
         ->group("Picture");
     addSwitch(command, "--shadows", scene.shadows, {"off", "on"},
-              "of phong: on or off, whether lights send shadow rays", "the scene's, else off");
+              "of phong: shadow rays, on or off", "the scene's, else off");
     addSwitch(command, "--normals", scene.flatNormals, {"interpolated", "flat"},
-              "interpolated between the corners, or flat", "the scene's, else interpolated");
+              "interpolated or flat", "the scene's, else interpolated");
 }
 
 std::string integratorName(const RenderSettings& settings)

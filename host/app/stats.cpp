@@ -22,14 +22,6 @@ double perSecond(uint64_t count, double seconds)
     return seconds > 0 ? double(count) / seconds : 0;
 }
 
-/// Largest resident size of this process so far [bytes].
-uint64_t peakMemory()
-{
-    rusage usage = {};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
-}
-
 /// Work of the rays of all samples of a pixel: mean over the pixels, and most.
 Json pixelsJson(const Film& film)
 {
@@ -46,6 +38,13 @@ Json pixelsJson(const Film& film)
 }
 
 }  // namespace
+
+uint64_t peakMemory()
+{
+    rusage usage = {};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
+}
 
 double Stopwatch::lap()
 {
@@ -68,11 +67,18 @@ Json countersJson(const Counters& counters)
             {"badSamples", counters.badSamples}};
 }
 
+Json treeJson(const BvhStatistics& tree)
+{
+    return {{"build", nameOf(tree.build)},     {"innerNodes", tree.innerNodes},
+            {"leaves", tree.leaves},           {"depth", tree.depth},
+            {"largestLeaf", tree.largestLeaf}, {"sahCost", tree.sahCost}};
+}
+
 Json statisticsJson(const PreparedScene& prepared, const Film& film, Device& device,
                     const StageSeconds& seconds)
 {
     const Scene& scene = prepared.scene;
-    const BvhStatistics& tree = prepared.bvh.statistics;
+    const DeviceScene arrays = prepared.deviceScene();
     const Counters& counters = film.counters;
     DeviceInfo info = device.info();
     DeviceStatistics work = device.statistics();
@@ -82,21 +88,17 @@ Json statisticsJson(const PreparedScene& prepared, const Film& film, Device& dev
         {"sahl", SAHL_VERSION},
         {"scene",
          {{"name", scene.name},
-          {"primitives", prepared.bvh.primitives.size()},
+          {"primitives", arrays.primitives.size()},
+          {"primitivesSeen", prepared.bvh.statistics.primitivesSeen},
+          {"instances", arrays.instances.size()},
           {"droppedTriangles", scene.droppedTriangles},
-          {"materials", scene.materials.size()},
-          {"lights", scene.lights.size()},
+          {"materials", arrays.materials.size()},
+          {"lights", arrays.lights.size()},
           {"width", scene.settings.width},
           {"height", scene.settings.height},
           {"maxBounces", scene.settings.maxBounces},
           {"seed", scene.settings.seed}}},
-        {"tree",
-         {{"build", nameOf(tree.build)},
-          {"innerNodes", tree.innerNodes},
-          {"leaves", tree.leaves},
-          {"depth", tree.depth},
-          {"largestLeaf", tree.largestLeaf},
-          {"sahCost", tree.sahCost}}},
+        {"tree", treeJson(prepared.bvh.statistics)},
         {"device",
          {{"name", info.name},
           {"driver", info.driver},

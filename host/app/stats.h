@@ -18,7 +18,13 @@ struct StageSeconds {
 nlohmann::ordered_json statisticsJson(const PreparedScene& prepared, const Film& film,
                                       Device& device, const StageSeconds& seconds);
 
+/// What the tree looks like: the object "tree" of statistics.
+nlohmann::ordered_json treeJson(const BvhStatistics& tree);
+
 nlohmann::ordered_json countersJson(const Counters& counters);
+
+/// Largest resident size of this process so far [bytes].
+uint64_t peakMemory();
 
 /// Seconds since an earlier call of the steady clock.
 class Stopwatch {

@@ -65,9 +65,8 @@ void addToneOptions(CLI::App& command, const std::string& name, ToneOptions& opt
         ->type_name("G")
         ->group("Output");
     command
-        .add_option(
-            "--histogram", options.histogram,
-            withDefault("plots of the RGB values before and after tone mapping, .png", "none"))
+        .add_option("--histogram", options.histogram,
+                    withDefault("plots of values before and after tone mapping, .png", "none"))
         ->type_name("FILE")
         ->group("Output");
 }

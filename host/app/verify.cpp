@@ -104,11 +104,10 @@ int runVerify(VerifyOptions& options)
     std::vector<fs::path> outputs;
     if (!options.differencePath.empty()) outputs.push_back(options.differencePath);
     checkPicturePaths(outputs);
-    Scene scene = loadSceneFor(options.common);
-    refuseToReplaceInputs(outputs);
-    requireFilmMemory(scene.settings, 2);
-    PreparedScene prepared =
-        prepareScene(std::move(scene), options.common.bvhBuild, threadsFor(options.common));
+    PreparedScene prepared = prepareSceneFor(options.common, [&](const Scene& scene) {
+        refuseToReplaceInputs(outputs);
+        requireFilmMemory(scene.settings, 2);
+    });
     std::unique_ptr<Device> device = openDeviceFor(options.common);
     std::unique_ptr<Device> reference = makeCpuDevice(options.common.deviceOptions);
 
@@ -157,7 +156,8 @@ Command addVerifyCommand(CLI::App& app)
             ->group("Commands");
     command
         ->add_option("scene", options->common.scenePath,
-                     "scene (.json) or mesh (.obj, .ply); without one a small built-in scene")
+                     "scene (.json), mesh (.obj, .ply) or saved scene (.sahl);\nwithout one a small "
+                     "built-in scene")
         ->type_name("SCENE");
     command
         ->add_option("--difference", options->differencePath,

@@ -69,6 +69,11 @@ const Glyph& glyphOf(char letter)
     return UNKNOWN;
 }
 
+std::ptrdiff_t offsetOf(const Image8& image, int column, int row)
+{
+    return std::ptrdiff_t{3} * (std::ptrdiff_t{row} * image.width + column);
+}
+
 }  // namespace
 
 Image8 filledImage(uint32_t width, uint32_t height, Colour8 colour)
@@ -87,22 +92,22 @@ void fillRectangle(Image8& image, int x, int y, int width, int height, Colour8 c
     const int bottom = std::min(y + height, static_cast<int>(image.height));
     for (int row = std::max(y, 0); row < bottom; row++) {
         for (int column = std::max(x, 0); column < right; column++) {
-            const size_t at =
-                size_t{3} * (static_cast<size_t>(row) * image.width + static_cast<size_t>(column));
             std::copy(colour.begin(), colour.end(),
-                      image.rgb.begin() + static_cast<std::ptrdiff_t>(at));
+                      image.rgb.begin() + offsetOf(image, column, row));
         }
     }
 }
 
 void drawImage(Image8& image, const Image8& source, int x, int y)
 {
-    for (uint32_t row = 0; row < source.height; row++) {
-        for (uint32_t column = 0; column < source.width; column++) {
-            const uint8_t* from = &source.rgb[size_t{3} * (size_t{row} * source.width + column)];
-            fillRectangle(image, x + static_cast<int>(column), y + static_cast<int>(row), 1, 1,
-                          {from[0], from[1], from[2]});
-        }
+    // Columns of the source that lie in the picture.
+    const int first = std::max(0, -x);
+    const int last = std::min(static_cast<int>(source.width), static_cast<int>(image.width) - x);
+    for (int row = 0; row < static_cast<int>(source.height) && first < last; row++) {
+        if (y + row < 0 || y + row >= static_cast<int>(image.height)) continue;
+        std::copy(source.rgb.begin() + offsetOf(source, first, row),
+                  source.rgb.begin() + offsetOf(source, last, row),
+                  image.rgb.begin() + offsetOf(image, x + first, y + row));
     }
 }
 

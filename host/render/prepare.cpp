@@ -1,8 +1,12 @@
 #include "render/prepare.h"
 
+#include <algorithm>
+
 namespace sahl {
 
-DeviceScene PreparedScene::deviceScene() const
+namespace {
+
+DeviceScene ownArrays(const Scene& scene, const Bvh& bvh)
 {
     DeviceScene view;
     view.nodes = bvh.nodes;
@@ -10,7 +14,26 @@ DeviceScene PreparedScene::deviceScene() const
     view.triangleNormals = scene.triangleNormals;
     view.materials = scene.materials;
     view.lights = scene.lights;
-    view.probeTexels = scene.probeTexels;
+    view.instances = bvh.instances;
+    return view;
+}
+
+/// Largest coordinate at which a ray of the camera may start.
+double reachOf(const Camera& camera)
+{
+    const glm::dvec3 lens = glm::abs(glm::dvec3(camera.lensRight)) + glm::abs(glm::dvec3(camera.lensDown));
+    const glm::dvec3 across = glm::abs(glm::dvec3(camera.right)) + glm::abs(glm::dvec3(camera.down));
+    const bool parallel = camera.type == CAMERA_ORTHOGRAPHIC;
+    const glm::dvec3 p = glm::abs(glm::dvec3(camera.position)) + lens + (parallel ? across : glm::dvec3(0.0));
+    return std::max({p.x, p.y, p.z});
+}
+
+}  // namespace
+
+DeviceScene PreparedScene::deviceScene() const
+{
+    DeviceScene view = borrowed ? *borrowed : ownArrays(scene, bvh);
+    if (!borrowed || !scene.probeTexels.empty()) view.probeTexels = scene.probeTexels;
     view.treeDepth = bvh.statistics.depth;
     view.frame.camera = scene.camera;
     view.frame.probe = scene.probe;
@@ -20,7 +43,7 @@ DeviceScene PreparedScene::deviceScene() const
     view.frame.seed = scene.settings.seed;
     view.frame.maxBounces = scene.settings.maxBounces;
     view.frame.rootRef = bvh.rootRef;
-    view.frame.lightCount = static_cast<uint>(scene.lights.size());
+    view.frame.lightCount = static_cast<uint>(view.lights.size());
     view.frame.integrator = scene.settings.integrator;
     view.frame.jitter = scene.settings.jitter ? 1 : 0;
     view.frame.ambient = scene.settings.ambient;
@@ -31,9 +54,18 @@ DeviceScene PreparedScene::deviceScene() const
 PreparedScene prepareScene(Scene scene, BvhBuild build, unsigned threads)
 {
     PreparedScene prepared;
-    prepared.bvh = buildBvh(scene.primitives, build, threads);
+    if (scene.instances.empty()) {
+        prepared.bvh = buildBvh(scene.primitives, build, threads);
+    } else {
+        prepared.bvh = buildTwoLevels(scene.primitives, scene.objects, scene.instances,
+                                      reachOf(scene.camera), build, threads);
+    }
     prepared.scene = std::move(scene);
     prepared.scene.primitives = {};
+    prepared.scene.objects = {};
+    prepared.scene.instances = {};
+    for (const ObjectInstance& instance : prepared.bvh.instances)
+        prepared.scene.objectStarts.push_back(instance.firstNumber);
     return prepared;
 }
 

@@ -5,12 +5,21 @@
 #include "device/device.h"
 #include "scene/scene.h"
 
+#include <memory>
+#include <optional>
+
 namespace sahl {
 
-/// A scene with its tree. scene.primitives is empty: they are in bvh.primitives, in leaf order.
+/// A scene with its tree. scene.primitives, objects and instances are empty: they are in bvh, the
+/// primitives in leaf order. scene.objectStarts counts instances as objects, after the world's.
 struct PreparedScene {
     Scene scene;
     Bvh bvh;
+
+    /// Set for a scene that lies in a mapped file: then its arrays are read there and those of `scene`
+    /// and `bvh` are empty, but for probeTexels where another probe took the place of the saved one.
+    std::optional<DeviceScene> borrowed;
+    std::shared_ptr<const MappedFile> file;
 
     /// Views into this object, which must outlive the device's use of them.
     DeviceScene deviceScene() const;

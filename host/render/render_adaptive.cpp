@@ -11,7 +11,7 @@ namespace sahl {
 namespace {
 
 struct TileInWork {
-    TileRequest request;
+    TileRequest request;  // within the plan's window
     std::unique_ptr<AdaptiveTile> tile;
     uint32_t active = 0;  // pixels
     uint32_t passes = 0;
@@ -30,30 +30,38 @@ size_t batchSize(std::span<const TileRequest> tiles, size_t first, uint64_t maxP
     return end - first;
 }
 
+using PassDone = std::function<void(const std::function<RenderResult()>&)>;
+
 class AdaptiveRender {
 public:
     AdaptiveRender(Device& device, const RenderPlan& plan, const AdaptiveRule& rule,
-                   const std::function<void(const RenderProgress&)>& report)
+                   const std::function<void(const RenderProgress&)>& report,
+                   const PassDone& passDone)
         : device_(device),
+          plan_(plan),
           rule_(rule),
           report_(report),
-          result_{{Film(plan.width, plan.height), 0, false, 0}, {}}
+          passDone_(passDone),
+          result_{Film(plan.width, plan.height), 0, false, 0}
     {
-        result_.outcome.pixels = uint64_t{plan.width} * plan.height;
-        samplesMissing_ = double(result_.outcome.pixels) * rule.maxSamples;
+        result_.adaptive.pixels = uint64_t{plan.width} * plan.height;
+        samplesMissing_ = double(result_.adaptive.pixels) * rule.maxSamples;
     }
 
-    AdaptiveResult run(std::span<const TileRequest> tiles)
+    RenderResult run()
     {
+        std::vector<TileRequest> all =
+            tilesOf(plan_.width, plan_.height, plan_.tileSize, device_.maxTilePixels());
+        std::span<const TileRequest> tiles = all;
         // Software devices take the host's memory, others a copy of theirs there.
         uint64_t maxPixels =
             std::min(device_.maxAdaptivePixels(), availableMemory() / 2 / sizeof(AdaptivePixel));
-        for (size_t first = 0; first < tiles.size() && !result_.render.interrupted;) {
+        for (size_t first = 0; first < tiles.size() && !result_.interrupted;) {
             size_t count = batchSize(tiles, first, maxPixels);
             renderTogether(tiles.subspan(first, count));
             first += count;
         }
-        result_.render.seconds = secondsSoFar();
+        result_.seconds = secondsSoFar();
         return std::move(result_);
     }
 
@@ -62,7 +70,7 @@ private:
     {
         std::vector<TileInWork> tiles;
         for (const TileRequest& request : requests) {
-            tiles.push_back({request, device_.beginAdaptive(request, rule_),
+            tiles.push_back({request, device_.beginAdaptive(inFullPicture(request, plan_), rule_),
                              request.width * request.height, 0});
         }
         uint32_t passes = 0;
@@ -70,9 +78,19 @@ private:
         while (std::ranges::any_of(tiles, isActive) && runPass(tiles)) {
             passes++;
             progress_.samplesDone = std::min(passes * BLOCK_SIZE, rule_.maxSamples);
+            if (passDone_) passDone_([&] { return resultWith(tiles, passes); });
         }
-        for (const TileInWork& tile : tiles) addToFilm(tile, passes);
-        result_.render.passes = std::max(result_.render.passes, passes);
+        result_ = resultWith(tiles, passes);
+    }
+
+    /// What there was before and what the tiles had after `passes` passes.
+    RenderResult resultWith(std::span<const TileInWork> tiles, uint32_t passes) const
+    {
+        RenderResult result = result_;
+        for (const TileInWork& tile : tiles) addTile(tile, passes, result);
+        result.passes = std::max(result.passes, passes);
+        result.seconds = secondsSoFar();
+        return result;
     }
 
     /// One pass of every tile that has active pixels; false when a signal came before its end.
@@ -81,7 +99,7 @@ private:
         for (TileInWork& work : tiles) {
             if (work.active == 0) continue;
             if (interruptSignal() != 0) {
-                result_.render.interrupted = true;
+                result_.interrupted = true;
                 return false;
             }
             uint32_t before = work.active;
@@ -106,21 +124,19 @@ private:
         report_(progress_);
     }
 
-    /// Adds what a tile had after `passes` passes. An interrupted first pass keeps its finished
-    /// tiles.
-    void addToFilm(const TileInWork& work, uint32_t passes)
+    /// An interrupted first pass keeps its finished tiles.
+    static void addTile(const TileInWork& work, uint32_t passes, RenderResult& result)
     {
-        const TileRequest& request = work.request;
-        std::vector<AdaptivePixel> pixels(size_t{request.width} * request.height);
+        const TileRequest& at = work.request;
+        std::vector<AdaptivePixel> pixels(size_t{at.width} * at.height);
         work.tile->read(pixels);
         bool withNewest = work.passes <= passes || passes == 0;
         for (const AdaptivePixel& pixel : pixels) {
             if (!withNewest && pixel.block.samplesDone > 0) continue;
-            result_.outcome.converged += pixel.state == PIXEL_CONVERGED ? 1 : 0;
-            result_.outcome.atMaximum += pixel.state == PIXEL_AT_MAXIMUM ? 1 : 0;
+            result.adaptive.converged += pixel.state == PIXEL_CONVERGED ? 1 : 0;
+            result.adaptive.atMaximum += pixel.state == PIXEL_AT_MAXIMUM ? 1 : 0;
         }
-        result_.render.film.add(request.x, request.y, request.width, request.height, pixels,
-                                withNewest);
+        result.film.add(at.x, at.y, at.width, at.height, pixels, withNewest);
     }
 
     double secondsSoFar() const
@@ -129,9 +145,11 @@ private:
     }
 
     Device& device_;
+    RenderPlan plan_;
     AdaptiveRule rule_;
     const std::function<void(const RenderProgress&)>& report_;
-    AdaptiveResult result_;
+    const PassDone& passDone_;
+    RenderResult result_;  // of the tiles that are finished
     RenderProgress progress_;
     double samplesDone_ = 0;
     double samplesMissing_ = 0;  // at most
@@ -140,12 +158,12 @@ private:
 
 }  // namespace
 
-AdaptiveResult renderAdaptive(Device& device, const RenderPlan& plan, const AdaptiveRule& rule,
-                              const std::function<void(const RenderProgress&)>& report)
+RenderResult renderAdaptive(
+    Device& device, const RenderPlan& plan, const AdaptiveRule& rule,
+    const std::function<void(const RenderProgress&)>& report,
+    const std::function<void(const std::function<RenderResult()>&)>& passDone)
 {
-    std::vector<TileRequest> tiles =
-        tilesOf(plan.width, plan.height, plan.tileSize, device.maxTilePixels());
-    return AdaptiveRender(device, plan, rule, report).run(tiles);
+    return AdaptiveRender(device, plan, rule, report, passDone).run();
 }
 
 }  // namespace sahl

@@ -12,6 +12,8 @@ namespace sahl {
 
 namespace {
 
+const glm::dvec3 TOWARDS_EYE(0.55, 0.42, 1.0);  // of a camera that frames a box
+
 double length(const glm::dvec3& v)
 {
     return std::sqrt(glm::dot(v, v));
@@ -99,6 +101,27 @@ double focusDistanceOf(const CameraDescription& d)
     throw badInput("camera: a lens needs focusDistance or focusOn");
 }
 
+/// The description with its eye at such a distance that each corner of the box lies inside the picture.
+CameraDescription framing(CameraDescription description, const FramedBox& box, double aspect)
+{
+    constexpr double MARGIN = 0.9;  // part of the picture that the box may fill
+    const View view = viewOf(description);
+    const HalfSize half = halfSizeOf(description, aspect);
+    double distance = 0;
+    for (unsigned corner = 0; corner < 8; corner++) {
+        glm::dvec3 p = glm::dvec3(corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
+                                  corner & 4 ? box.hi.z : box.lo.z) -
+                       description.lookAt;
+        double depth = glm::dot(p, view.forward);
+        double x = std::abs(glm::dot(p, view.right)) / (half.x * MARGIN);
+        double y = std::abs(glm::dot(p, view.up)) / (half.y * MARGIN);
+        distance = std::max(distance, std::max(x, y) - depth);
+    }
+    description.eye = description.lookAt + TOWARDS_EYE / length(TOWARDS_EYE) * distance;
+    description.framed.reset();
+    return description;
+}
+
 }  // namespace
 
 glm::dvec3 viewDirection(const CameraDescription& description)
@@ -109,8 +132,12 @@ glm::dvec3 viewDirection(const CameraDescription& description)
 Camera makeCamera(const CameraDescription& description, uint32_t width, uint32_t height)
 {
     if (width == 0 || height == 0) throw badInput("camera: the picture is {} x {}", width, height);
+    const double aspect = static_cast<double>(width) / height;
+    if (description.framed) {
+        return makeCamera(framing(description, *description.framed, aspect), width, height);
+    }
     const View view = viewOf(description);
-    const HalfSize half = halfSizeOf(description, static_cast<double>(width) / height);
+    const HalfSize half = halfSizeOf(description, aspect);
     Camera camera = {};
     camera.type = description.orthographicHeight ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE;
     camera.position = toFloat(description.eye);
@@ -130,36 +157,21 @@ Camera makeCamera(const CameraDescription& description, uint32_t width, uint32_t
     return camera;
 }
 
+void placeCamera(Scene& scene, const CameraDescription& description)
+{
+    scene.camera = makeCamera(description, scene.settings.width, scene.settings.height);
+    scene.cameraDescription = description;
+}
+
 CameraDescription framePrimitives(const Scene& scene)
 {
-    constexpr double MARGIN = 0.9;  // part of the picture that the box may fill
     CameraDescription description;
-    if (scene.primitives.empty()) return description;
-    Box box;
-    for (const Primitive& primitive : scene.primitives) grow(box, extentOf(primitive));
-    const glm::dvec3 lo(box.lo), hi(box.hi);
-    glm::dvec3 center = (lo + hi) * 0.5;
-    glm::dvec3 towardsEye(0.55, 0.42, 1.0);
-    towardsEye /= length(towardsEye);
+    if (scene.primitives.empty() && scene.instances.empty()) return description;
+    const Box box = extentOf(scene);
+    description.framed = {glm::dvec3(box.lo), glm::dvec3(box.hi)};
     description.fovDeg = 35;
-    description.lookAt = center;
-    description.eye = center + towardsEye;
-
-    // Far enough that each corner of the box lies inside the picture.
-    const View view = viewOf(description);
-    const HalfSize half =
-        halfSizeOf(description, static_cast<double>(scene.settings.width) / scene.settings.height);
-    double distance = 0;
-    for (unsigned corner = 0; corner < 8; corner++) {
-        glm::dvec3 p = glm::dvec3(corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y,
-                                  corner & 4 ? hi.z : lo.z) -
-                       center;
-        double depth = glm::dot(p, view.forward);
-        double x = std::abs(glm::dot(p, view.right)) / (half.x * MARGIN);
-        double y = std::abs(glm::dot(p, view.up)) / (half.y * MARGIN);
-        distance = std::max(distance, std::max(x, y) - depth);
-    }
-    description.eye = center + towardsEye * distance;
+    description.lookAt = (description.framed->lo + description.framed->hi) * 0.5;
+    description.eye = description.lookAt + TOWARDS_EYE / length(TOWARDS_EYE);
     return description;
 }
 

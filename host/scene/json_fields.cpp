@@ -1,7 +1,6 @@
 #include "scene/json_fields.h"
 
 #include "scene/numbers.h"
-#include "scene/scene_keys.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,10 +105,15 @@ bool hasKey(const JsonNode& node, const std::string& key)
 
 JsonObject::JsonObject(const JsonDocument& document, const JsonNode& node, const std::string& what,
                        const std::string& keys)
+    : JsonObject(document, node, what, keysOf(keys))
+{
+}
+
+JsonObject::JsonObject(const JsonDocument& document, const JsonNode& node, const std::string& what,
+                       const KeySet& known)
     : document_(document), node_(node), what_(what)
 {
     requireKind(document, node, what, JsonNode::Kind::object);
-    const KeySet& known = keysOf(keys);
     for (const JsonKey& key : node.keys) {
         if (std::find(known.keys.begin(), known.keys.end(), key.name) != known.keys.end()) continue;
         std::string near = suggestKey(key.name, known);

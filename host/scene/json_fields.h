@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/json_document.h"
+#include "scene/scene_keys.h"
 
 #include <glm/glm.hpp>
 
@@ -42,6 +43,9 @@ class JsonObject {
 public:
     JsonObject(const JsonDocument& document, const JsonNode& node, const std::string& what,
                const std::string& keys);
+    /// The same with keys of another format than that of scene files.
+    JsonObject(const JsonDocument& document, const JsonNode& node, const std::string& what,
+               const KeySet& keys);
 
     const JsonNode* find(const std::string& key) const;  ///< nullptr when absent
     const JsonNode& at(const std::string& key) const;    ///< of a required key

@@ -34,7 +34,7 @@ Scene loadMeshScene(const fs::path& path, const SceneOptions& options)
         applyProbeOption(scene, options);
     else
         useStudioProbe(scene, options);
-    scene.camera = makeCamera(framePrimitives(scene), scene.settings.width, scene.settings.height);
+    placeCamera(scene, framePrimitives(scene));
     if (scene.settings.integrator == INTEGRATOR_PHONG) addHeadLight(scene);
     return scene;
 }
@@ -43,11 +43,10 @@ Scene loadMeshScene(const fs::path& path, const SceneOptions& options)
 void warnAboutOddScene(const Scene& scene)
 {
     float largest = 0;
-    for (const Primitive& primitive : scene.primitives) {
-        const Box box = extentOf(primitive);
-        for (const vec3& p : {box.lo, box.hi}) {
+    const Box box = extentOf(scene);
+    for (const vec3& p : {box.lo, box.hi}) {
+        if (box.lo.x <= box.hi.x)
             largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-        }
     }
     if (largest > 1e9f) {
         warn(fmt::format(
@@ -99,6 +98,23 @@ void checkPictureSize(const RenderSettings& settings, const std::string& name)
     }
 }
 
+Box extentOf(const std::vector<Primitive>& primitives)
+{
+    Box box;
+    for (const Primitive& primitive : primitives) grow(box, extentOf(primitive));
+    return box;
+}
+
+Box extentOf(const Scene& scene)
+{
+    Box box = extentOf(scene.primitives);
+    std::vector<Box> objects;
+    for (const std::vector<Primitive>& object : scene.objects) objects.push_back(extentOf(object));
+    for (const Placement& placement : scene.instances)
+        grow(box, placedBox(placement, objects[placement.object]));
+    return box;
+}
+
 Scene loadScene(const fs::path& path, const SceneOptions& options)
 {
     std::string extension = meshExtension(path);
@@ -141,7 +157,7 @@ Scene builtInScene(const SceneOptions& options)
     camera.eye = {0.6, 2.4, 6.5};
     camera.lookAt = {0, 0.9, 0};
     camera.fovDeg = 36;
-    scene.camera = makeCamera(camera, scene.settings.width, scene.settings.height);
+    placeCamera(scene, camera);
     return scene;
 }
 

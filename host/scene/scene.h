@@ -1,6 +1,7 @@
 // A scene as the rest of the program sees it: plain arrays of the structs that the device reads.
 #pragma once
 
+#include "bvh/instances.h"
 #include "shared/adaptive_types.h"
 #include "shared/scene_types.h"
 #include "util/files.h"
@@ -39,30 +40,17 @@ struct RenderSettings {
     AdaptiveRule adaptive = {ADAPTIVE_NONE, 1e-4f, 20, 1000};  ///< with a rule, `spp` has no meaning
 };
 
-/// Everything a picture is made of, before the tree is built. Primitives are in the order in which
-/// the files gave them; primitives[i].number == i.
-struct Scene {
-    std::string name;  ///< for messages: the file, or "built-in ..."
-    RenderSettings settings;
-    std::vector<Primitive> primitives;
-    std::vector<uint32_t> objectStarts;  ///< number of the first primitive of each shape
-    std::vector<TriangleNormals> triangleNormals;
-    std::vector<Material> materials;
-    std::vector<std::string> materialNames;  ///< of materials, for messages
-    std::vector<Light> lights;
-    Probe probe = plainProbe(0, 0, PROBE_LATLONG, FILTER_BILINEAR);  ///< lights the scene
-    std::optional<Probe> background;  ///< what the camera sees behind the scene, if not the probe
-    std::vector<vec4> probeTexels;    ///< of both
-    Camera camera = {};  ///< `right` set for settings.width x settings.height, see makeCamera
-    uint64_t droppedTriangles = 0;  ///< of zero area, left out while reading
-};
-
 /// What points right and up in the picture, of any length, at a right angle to each other. The
 /// camera looks along up x right, or along right x up in a left-handed space.
 struct CameraAxes {
     glm::dvec3 right = {1, 0, 0};
     glm::dvec3 up = {0, 1, 0};
     bool leftHanded = false;
+};
+
+/// A box that the picture is to show all of.
+struct FramedBox {
+    glm::dvec3 lo, hi;
 };
 
 /// Camera as people describe it. Field of view in degrees of the named axis.
@@ -76,12 +64,44 @@ struct CameraDescription {
     std::optional<double> orthographicHeight;  ///< of what is seen [m], instead of a field of view
     double lensRadius = 0;                     ///< of a thin lens [m]; 0: all is sharp
     std::optional<double> focusDistance;       ///< along the view [m]; without it: to lookAt
+    std::optional<FramedBox> framed;           ///< moves eye so that all of it is in the picture
+};
+
+/// Everything a picture is made of, before the tree is built. Primitives are in the order in which
+/// the files gave them; primitives[i].number == i.
+struct Scene {
+    std::string name;  ///< for messages: the file, or "built-in ..."
+    RenderSettings settings;
+    std::vector<Primitive> primitives;
+    std::vector<uint32_t> objectStarts;           ///< number of the first primitive of each shape
+    std::vector<std::vector<Primitive>> objects;  ///< that instances share; in spaces of their own,
+                                                  ///< objects[k][i].number == i
+    std::vector<Placement> instances;
+    std::vector<TriangleNormals> triangleNormals;
+    std::vector<Material> materials;
+    std::vector<std::string> materialNames;  ///< of materials, for messages
+    std::vector<Light> lights;
+    Probe probe = plainProbe(0, 0, PROBE_LATLONG, FILTER_BILINEAR);  ///< lights the scene
+    std::optional<Probe> background;  ///< what the camera sees behind the scene, if not the probe
+    std::vector<vec4> probeTexels;    ///< of both
+    Camera camera = {};  ///< `right` set for settings.width x settings.height, see makeCamera
+    std::optional<CameraDescription> cameraDescription;  ///< what `camera` was made from
+    uint64_t droppedTriangles = 0;  ///< of zero area, left out while reading
 };
 
 /// The device's camera for a picture of the given size. Throws badInput when eye and lookAt
 /// coincide, up is parallel to the view, fovDeg is outside (0, 180), axes are zero or not at a
 /// right angle (to 1e-4), or a lens has nothing to focus on.
 Camera makeCamera(const CameraDescription& description, uint32_t width, uint32_t height);
+
+/// Gives the scene the described camera, for its picture's size. Throws as makeCamera does.
+void placeCamera(Scene& scene, const CameraDescription& description);
+
+/// Box of everything in the scene, instances included; empty where there is nothing.
+Box extentOf(const Scene& scene);
+
+/// Box of an object in its own space.
+Box extentOf(const std::vector<Primitive>& primitives);
 
 /// What the command line adds to or changes in a scene.
 struct SceneOptions {

@@ -105,12 +105,10 @@ CameraDescription describeCamera(const SceneReading& reading, const JsonNode& no
 
 }  // namespace
 
-Camera readCamera(SceneReading& reading, const JsonNode& node)
+void readCamera(SceneReading& reading, const JsonNode& node)
 {
-    const RenderSettings& settings = reading.scene.settings;
     const CameraDescription camera = describeCamera(reading, node);
-    return placed(reading.document, node,
-                  [&] { return makeCamera(camera, settings.width, settings.height); });
+    placed(reading.document, node, [&] { placeCamera(reading.scene, camera); });
 }
 
 }  // namespace sahl

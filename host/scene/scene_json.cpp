@@ -54,6 +54,7 @@ Scene loadJsonScene(const fs::path& path, const SceneOptions& options)
     applyOptions(scene.settings, options);
     checkPictureSize(scene.settings, scene.name);
     if (const JsonNode* materials = file.find("materials")) readMaterials(reading, *materials);
+    if (const JsonNode* groups = file.find("groups")) readGroups(reading, *groups);
     if (const JsonNode* shapes = file.find("shapes")) {
         for (const JsonNode& shape : readArray(document, *shapes, "\"shapes\""))
             readShape(reading, shape);
@@ -69,10 +70,10 @@ Scene loadJsonScene(const fs::path& path, const SceneOptions& options)
         readEnvironment(reading, *environment);
     if (const JsonNode* background = file.find("background")) readBackground(reading, *background);
 
-    const JsonNode* camera = file.find("camera");
-    scene.camera =
-        camera ? readCamera(reading, *camera)
-               : makeCamera(framePrimitives(scene), scene.settings.width, scene.settings.height);
+    if (const JsonNode* camera = file.find("camera"))
+        readCamera(reading, *camera);
+    else
+        placeCamera(scene, framePrimitives(scene));
     return scene;
 }
 

@@ -3,6 +3,7 @@
 #include "util/error.h"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -109,6 +110,23 @@ std::vector<fs::path> filesRead()
     return filesReadSoFar;
 }
 
+MappedFile::MappedFile(const fs::path& path, uint64_t maxBytes)
+{
+    uint64_t size = 0;
+    Descriptor file = openInput(path, maxBytes, size);
+    if (size == 0) return;
+    void* place = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, file.fd, 0);
+    if (place == MAP_FAILED) {
+        throw badInput("{}: cannot be mapped into memory: {}", path.string(), std::strerror(errno));
+    }
+    bytes_ = {static_cast<const std::byte*>(place), size};
+}
+
+MappedFile::~MappedFile()
+{
+    if (!bytes_.empty()) ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
+}
+
 void requireRegularFile(const fs::path& path, uint64_t maxBytes)
 {
     uint64_t size = 0;
@@ -156,34 +174,49 @@ void requireWritable(const fs::path& target)
     ::unlink(temporary.c_str());
 }
 
-void writeFileAtomically(const fs::path& target, std::span<const uint8_t> bytes)
+AtomicFile::AtomicFile(const fs::path& target) : target_(target)
 {
     if (isSpecialFile(target)) {
-        Descriptor device(::open(target.c_str(), O_WRONLY | O_CLOEXEC));
-        if (device.fd < 0) throw cannotWrite(target, std::strerror(errno));
-        writeAll(device.fd, bytes, target);
-        return;
+        fd_ = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+    } else {
+        place_ = linkResolved(target);
+        Descriptor file = createTemporary(place_, temporary_);
+        if (file.fd < 0) temporary_.clear();
+        fd_ = std::exchange(file.fd, -1);
     }
-    fs::path place = linkResolved(target);
-    fs::path temporary;
-    Descriptor file = createTemporary(place, temporary);
-    if (file.fd < 0) throw cannotWrite(target, std::strerror(errno));
-    try {
-        writeAll(file.fd, bytes, target);
-        if (::fsync(file.fd) != 0) throw cannotWrite(target, std::strerror(errno));
-        if (::close(std::exchange(file.fd, -1)) != 0) {
-            throw cannotWrite(target, std::strerror(errno));
-        }
-        if (::rename(temporary.c_str(), place.c_str()) != 0) {
-            throw cannotWrite(target, std::strerror(errno));
-        }
-    } catch (...) {
-        ::unlink(temporary.c_str());
-        throw;
+    if (fd_ < 0) throw cannotWrite(target, std::strerror(errno));
+}
+
+AtomicFile::~AtomicFile()
+{
+    if (fd_ >= 0) ::close(fd_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::span<const uint8_t> bytes)
+{
+    writeAll(fd_, bytes, target_);
+}
+
+void AtomicFile::commit()
+{
+    if (temporary_.empty()) return;
+    if (::fsync(fd_) != 0) throw cannotWrite(target_, std::strerror(errno));
+    if (::close(std::exchange(fd_, -1)) != 0) throw cannotWrite(target_, std::strerror(errno));
+    if (::rename(temporary_.c_str(), place_.c_str()) != 0) {
+        throw cannotWrite(target_, std::strerror(errno));
     }
+    temporary_.clear();
     // The rename itself must survive a power cut; a folder that cannot be synced is no failure.
-    Descriptor folder(::open(folderOf(place).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    Descriptor folder(::open(folderOf(place_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (folder.fd >= 0) ::fsync(folder.fd);
+}
+
+void writeFileAtomically(const fs::path& target, std::span<const uint8_t> bytes)
+{
+    AtomicFile file(target);
+    file.write(bytes);
+    file.commit();
 }
 
 void writeFileAtomically(const fs::path& target, const std::string& text)

@@ -27,9 +27,9 @@ vec3 probeTexelAt(Probe probe, int x, int y)
     int height = int(probe.height);
     if (probe.mapping == PROBE_LATLONG) {
         x = x < 0 ? x + width : (x >= width ? x - width : x);
-    } else {
-        x = x < 0 ? 0 : (x >= width ? width - 1 : x);
     }
+    // Also for directions that are not numbers: no texel beside the picture may be read.
+    x = x < 0 ? 0 : (x >= width ? width - 1 : x);
     y = y < 0 ? 0 : (y >= height ? height - 1 : y);
     return loadProbeTexel(probe.firstTexel + uint(y) * probe.width + uint(x));
 }

@@ -25,20 +25,20 @@ protected:
         return prepared;
     }
 
-    static const AdaptiveResult& reference()
+    static const RenderResult& reference()
     {
-        static const AdaptiveResult result = renderAdaptiveFilm(*makeCpuDevice({}), scene(), RULE);
+        static const RenderResult result = renderAdaptiveFilm(*makeCpuDevice({}), scene(), RULE);
         return result;
     }
 
     /// Renders on the device and compares film, counts and outcome with the reference.
     static void expectSame(Device& device, uint32_t tileSize = 0)
     {
-        const AdaptiveResult result = renderAdaptiveFilm(device, scene(), RULE, tileSize);
-        EXPECT_TRUE(result.render.film == reference().render.film);
-        EXPECT_EQ(result.outcome.converged, reference().outcome.converged);
-        EXPECT_EQ(result.outcome.atMaximum, reference().outcome.atMaximum);
-        EXPECT_EQ(result.render.passes, reference().render.passes);
+        const RenderResult result = renderAdaptiveFilm(device, scene(), RULE, tileSize);
+        EXPECT_TRUE(result.film == reference().film);
+        EXPECT_EQ(result.adaptive.converged, reference().adaptive.converged);
+        EXPECT_EQ(result.adaptive.atMaximum, reference().adaptive.atMaximum);
+        EXPECT_EQ(result.passes, reference().passes);
     }
 
     static void expectSameOnDevice(const DeviceOptions& options, uint32_t tileSize = 0)
@@ -52,14 +52,13 @@ TEST_F(Adaptive, hasTheSameBitsOnTheDeviceAndTheReference)
     expectSameOnDevice({});
     // Counts of all kinds occur: the minimum, the maximum, and others inside of blocks.
     std::set<uint32_t> counts;
-    for (size_t i = 0; i < WIDTH * HEIGHT; i++)
-        counts.insert(samplesOf(reference().render.film, i));
+    for (size_t i = 0; i < WIDTH * HEIGHT; i++) counts.insert(samplesOf(reference().film, i));
     EXPECT_EQ(*counts.begin(), RULE.minSamples);
     EXPECT_EQ(*counts.rbegin(), RULE.maxSamples);
     EXPECT_GT(counts.size(), 30u);
-    EXPECT_GT(reference().outcome.converged, 50u);
-    EXPECT_GT(reference().outcome.atMaximum, 50u);
-    EXPECT_EQ(reference().outcome.converged + reference().outcome.atMaximum, WIDTH * HEIGHT);
+    EXPECT_GT(reference().adaptive.converged, 50u);
+    EXPECT_GT(reference().adaptive.atMaximum, 50u);
+    EXPECT_EQ(reference().adaptive.converged + reference().adaptive.atMaximum, WIDTH * HEIGHT);
 }
 
 TEST_F(Adaptive, hasTheSameBitsForEveryTileSizeAndNumberOfThreads)
@@ -113,8 +112,8 @@ TEST_F(Adaptive, hasTheSameBitsWhenTheDriverCutsLoops)
     DeviceOptions options;
     options.stepBudget = 1u << 30;
     auto device = openFirstDevice(options);
-    const AdaptiveResult result = renderAdaptiveFilm(*device, box, few);
-    EXPECT_TRUE(result.render.film == renderAdaptiveFilm(*makeCpuDevice({}), box, few).render.film);
+    const RenderResult result = renderAdaptiveFilm(*device, box, few);
+    EXPECT_TRUE(result.film == renderAdaptiveFilm(*makeCpuDevice({}), box, few).film);
     if (device->info().driver.find("Mesa 22.3") != std::string::npos) {
         EXPECT_GT(device->statistics().retries, 0u) << "the guard did not see the cut";
     }
@@ -159,7 +158,7 @@ TEST_F(Adaptive, verifyComparesCountsAndFindsTheFirstDifferingSample)
     };
     const VerifyResult same = verify(*device);
     EXPECT_TRUE(same.equal());
-    EXPECT_TRUE(same.deviceFilm == reference().render.film);
+    EXPECT_TRUE(same.deviceFilm == reference().film);
 
     // Another rule on one side: all samples are the same, and some pixels get more of them.
     struct Patient final : SmallDevice {
@@ -206,7 +205,7 @@ TEST_F(Adaptive, filmIsThatOfTheSamplesThatEachPixelTook)
     // Every pixel again, alone and without a rule, with as many samples as the rule took.
     auto cpu = makeCpuDevice({});
     cpu->setScene(scene().deviceScene());
-    const Film& film = reference().render.film;
+    const Film& film = reference().film;
     Film expected(WIDTH, HEIGHT);
     for (uint32_t y = 0; y < HEIGHT; y++) {
         for (uint32_t x = 0; x < WIDTH; x++) {
@@ -244,7 +243,7 @@ TEST_F(Adaptive, finishedPixelsLeaveTheQueue)
         active = done.activePixels;
     }
     EXPECT_EQ(tile->runPass().samples, 0u) << "nothing is left to do";
-    const Counters& counters = reference().render.film.counters;
+    const Counters& counters = reference().film.counters;
     EXPECT_EQ(samples, counters.cameraRays);
     EXPECT_EQ(rays, counters.cameraRays + counters.indirectRays + counters.shadowRays);
 }
@@ -289,7 +288,7 @@ TEST_F(Adaptive, pictureAfterEachPassIsThatOfAsManySamples)
             without.add(0, 0, WIDTH, HEIGHT, pixels, false);
             const AdaptiveRule shorter =
                 reportRule(RULE.epsilon, RULE.minSamples, pass * BLOCK_SIZE);
-            EXPECT_TRUE(with == renderAdaptiveFilm(*other, scene(), shorter).render.film);
+            EXPECT_TRUE(with == renderAdaptiveFilm(*other, scene(), shorter).film);
             EXPECT_TRUE(without == before) << "a signal in the pass would leave another picture";
             before = with;
         }
@@ -303,10 +302,10 @@ TEST_F(Adaptive, samplesThatAreNotFiniteCountAsBlackAndAreCounted)
     for (Light& light : bright.lights) light.intensity = vec3(3e38f);
     for (Material& material : bright.materials) material.emission = material.emission * 1e37f;
     PreparedScene prepared = prepareScene(std::move(bright), BvhBuild::sweep, 2);
-    const AdaptiveResult onCpu = renderAdaptiveFilm(*makeCpuDevice({}), prepared, RULE);
-    const AdaptiveResult onDevice = renderAdaptiveFilm(*openFirstDevice(), prepared, RULE);
-    EXPECT_GT(onCpu.render.film.counters.badSamples, 100u);
-    EXPECT_TRUE(onDevice.render.film == onCpu.render.film);
+    const RenderResult onCpu = renderAdaptiveFilm(*makeCpuDevice({}), prepared, RULE);
+    const RenderResult onDevice = renderAdaptiveFilm(*openFirstDevice(), prepared, RULE);
+    EXPECT_GT(onCpu.film.counters.badSamples, 100u);
+    EXPECT_TRUE(onDevice.film == onCpu.film);
 }
 
 }  // namespace

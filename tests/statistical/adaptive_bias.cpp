@@ -44,7 +44,7 @@ Estimate meanOver(uint32_t size, const AdaptiveRule& rule, uint32_t seeds)
     auto device = makeCpuDevice({});
     for (uint32_t seed = 1; seed <= seeds; seed++) {
         PreparedScene scene = prepareScene(lampScene(size, seed), BvhBuild::sweep, 2);
-        Film film = renderAdaptiveFilm(*device, scene, rule).render.film;
+        Film film = renderAdaptiveFilm(*device, scene, rule).film;
         double mean = frameMean(film);
         sum += mean;
         sum2 += mean * mean;

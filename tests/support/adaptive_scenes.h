@@ -11,8 +11,8 @@ inline AdaptiveRule reportRule(float epsilon, uint32_t minSamples, uint32_t maxS
     return {ADAPTIVE_REPORT, epsilon, minSamples, maxSamples};
 }
 
-inline AdaptiveResult renderAdaptiveFilm(Device& device, const PreparedScene& scene,
-                                         const AdaptiveRule& rule, uint32_t tileSize = 0)
+inline RenderResult renderAdaptiveFilm(Device& device, const PreparedScene& scene,
+                                       const AdaptiveRule& rule, uint32_t tileSize = 0)
 {
     device.setScene(scene.deviceScene());
     const RenderSettings& settings = scene.scene.settings;

@@ -1,0 +1,138 @@
+#include "saved/struct_json.h"
+
+#include <array>
+#include <variant>
+
+namespace sahl {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Struct>
+struct Field {
+    const char* name;
+    std::variant<vec3 Struct::*, float Struct::*> member;
+};
+
+// Every field but `type`, which is a word. A new field of the struct needs a line here.
+constexpr std::array MATERIAL_FIELDS = {
+    Field<Material>{"baseColor", &Material::baseColor},
+    Field<Material>{"eta", &Material::eta},
+    Field<Material>{"emission", &Material::emission},
+    Field<Material>{"conductorEta", &Material::conductorEta},
+    Field<Material>{"diffuseWeight", &Material::diffuseWeight},
+    Field<Material>{"conductorK", &Material::conductorK},
+    Field<Material>{"specularWeight", &Material::specularWeight},
+    Field<Material>{"specularColor", &Material::specularColor},
+    Field<Material>{"shininess", &Material::shininess},
+    Field<Material>{"ambientColor", &Material::ambientColor},
+};
+constexpr std::array LIGHT_FIELDS = {
+    Field<Light>{"position", &Light::position}, Field<Light>{"intensity", &Light::intensity},
+    Field<Light>{"cosOuter", &Light::cosOuter}, Field<Light>{"direction", &Light::direction},
+    Field<Light>{"cosInner", &Light::cosInner},
+};
+
+template <class Struct, size_t count>
+constexpr size_t bytesOf(const std::array<Field<Struct>, count>& fields)
+{
+    size_t bytes = sizeof(uint);  // of `type`
+    for (const Field<Struct>& field : fields) {
+        bytes +=
+            std::holds_alternative<float Struct::*>(field.member) ? sizeof(float) : sizeof(vec3);
+    }
+    return bytes;
+}
+constexpr size_t UNUSED_IN_MATERIAL = sizeof(Material::unused0);
+static_assert(bytesOf(MATERIAL_FIELDS) + UNUSED_IN_MATERIAL == sizeof(Material),
+              "a field of Material is not saved");
+static_assert(bytesOf(LIGHT_FIELDS) == sizeof(Light), "a field of Light is not saved");
+
+// By their numbers, MATERIAL_* and LIGHT_*.
+const std::vector<std::string> MATERIAL_TYPES = {"lambert", "mirror", "dielectric", "conductor",
+                                                 "report"};
+const std::vector<std::string> LIGHT_TYPES = {"point", "spot", "directional"};
+
+std::string wordOf(uint type, const std::vector<std::string>& words)
+{
+    if (type < words.size()) return words[type];
+    throw badInput("type {} of a material or light has no name to be saved by", type);
+}
+
+template <class Struct, size_t count>
+void appendFields(Json& json, const Struct& object, const std::array<Field<Struct>, count>& fields)
+{
+    for (const Field<Struct>& field : fields) {
+        if (const auto* scalar = std::get_if<float Struct::*>(&field.member)) {
+            json[field.name] = double{object.**scalar};
+        } else {
+            const vec3 v = object.*std::get<vec3 Struct::*>(field.member);
+            json[field.name] = {double{v.x}, double{v.y}, double{v.z}};
+        }
+    }
+}
+
+template <class Struct, size_t count>
+KeySet keysFor(const std::array<Field<Struct>, count>& fields, std::vector<std::string> more)
+{
+    KeySet keys = {"", std::move(more), {}};
+    for (const Field<Struct>& field : fields) keys.keys.emplace_back(field.name);
+    keys.required = keys.keys;
+    return keys;
+}
+
+template <class Struct, size_t count>
+Struct readFields(const JsonObject& json, const std::array<Field<Struct>, count>& fields,
+                  const std::vector<std::string>& types)
+{
+    Struct object = {};
+    const std::string type = json.string("type", "");
+    const auto found = std::find(types.begin(), types.end(), type);
+    if (found == types.end()) {
+        throw errorAt(
+            json.document(), json.at("type"),
+            fmt::format("\"type\" of {} is \"{}\", which is not known", json.what(), type));
+    }
+    object.type = static_cast<uint>(found - types.begin());
+    for (const Field<Struct>& field : fields) {
+        if (const auto* scalar = std::get_if<float Struct::*>(&field.member)) {
+            object.** scalar = static_cast<float>(json.number(field.name, 0, {}));
+        } else {
+            object.*std::get<vec3 Struct::*>(field.member) = vec3(json.vector(field.name, {}));
+        }
+    }
+    return object;
+}
+
+}  // namespace
+
+Json materialJson(const Material& material, const std::string& name)
+{
+    Json json = {{"name", name}, {"type", wordOf(material.type, MATERIAL_TYPES)}};
+    appendFields(json, material, MATERIAL_FIELDS);
+    return json;
+}
+
+Json lightJson(const Light& light)
+{
+    Json json = {{"type", wordOf(light.type, LIGHT_TYPES)}};
+    appendFields(json, light, LIGHT_FIELDS);
+    return json;
+}
+
+Material readMaterialJson(const JsonDocument& document, const JsonNode& node, std::string& name)
+{
+    static const KeySet KEYS = keysFor(MATERIAL_FIELDS, {"name", "type"});
+    const JsonObject json(document, node, "a material", KEYS);
+    name = json.string("name", "");
+    return readFields(json, MATERIAL_FIELDS, MATERIAL_TYPES);
+}
+
+Light readLightJson(const JsonDocument& document, const JsonNode& node)
+{
+    static const KeySet KEYS = keysFor(LIGHT_FIELDS, {"type"});
+    return readFields(JsonObject(document, node, "a light", KEYS), LIGHT_FIELDS, LIGHT_TYPES);
+}
+
+}  // namespace sahl

@@ -1,0 +1,161 @@
+// The tree as nested JSON: a group is an array of its two groups or of the leaf's objects.
+#include "saved/saved_scene.h"
+
+#include "saved/description.h"
+#include "saved/struct_json.h"
+
+#include <cmath>
+#include <iterator>
+
+namespace sahl {
+
+namespace {
+
+/// Text that goes to the file in large pieces.
+class TextFile {
+public:
+    explicit TextFile(const fs::path& path) : file_(path) {}
+
+    template <class... Args>
+    void print(fmt::format_string<Args...> text, Args&&... args)
+    {
+        fmt::format_to(std::back_inserter(text_), text, std::forward<Args>(args)...);
+        if (text_.size() > PIECE) flush();
+    }
+
+    void commit()
+    {
+        flush();
+        file_.commit();
+    }
+
+private:
+    static constexpr size_t PIECE = size_t{1} << 20;  // [bytes]
+
+    void flush()
+    {
+        file_.write({reinterpret_cast<const uint8_t*>(text_.data()), text_.size()});
+        text_.clear();
+    }
+
+    AtomicFile file_;
+    std::string text_;
+};
+
+/// The shortest decimal that reads back to the same float; -0 keeps its sign as a JSON number only
+/// with a point.
+std::string textOf(float x)
+{
+    return x == 0 && std::signbit(x) ? "-0.0" : fmt::format("{}", x);
+}
+
+std::string textOf(const vec3& v)
+{
+    return fmt::format("[{},{},{}]", textOf(v.x), textOf(v.y), textOf(v.z));
+}
+
+void printLeaf(TextFile& file, const Primitive& p, std::span<const TriangleNormals> normals)
+{
+    if (p.shape == SHAPE_SPHERE) {
+        file.print(
+            "{{\"type\":\"sphere\",\"number\":{},\"material\":{},\"center\":{},\"radius\":{}}}",
+            p.number, p.material, textOf(p.p0), textOf(p.p1.x));
+        return;
+    }
+    file.print(
+        "{{\"type\":\"triangle\",\"number\":{},\"material\":{},\"p0\":{},\"p1\":{},\"p2\":{}",
+        p.number, p.material, textOf(p.p0), textOf(p.p1), textOf(p.p2));
+    if (p.shape != SHAPE_FLAT) {
+        const TriangleNormals& n = normals[p.shape];
+        file.print(",\"normals\":[{},{},{}]", textOf(n.n0), textOf(n.n1), textOf(n.n2));
+    }
+    file.print("}}");
+}
+
+void printLeaves(TextFile& file, uint ref, const DeviceScene& scene)
+{
+    if (ref == REF_NONE) return;
+    const uint first = (ref & ~REF_LEAF) >> LEAF_COUNT_BITS;
+    const uint count = (ref & (MAX_LEAF_SIZE - 1)) + 1;
+    for (uint i = 0; i < count; i++) {
+        if (i > 0) file.print(",\n");
+        printLeaf(file, scene.primitives[first + i], scene.triangleNormals);
+    }
+}
+
+/// Without recursion: what is still to be printed lies on a stack.
+void printTree(TextFile& file, uint rootRef, const DeviceScene& scene)
+{
+    struct Piece {
+        uint ref;
+        const char* text;  ///< instead of a group, unless null
+    };
+    std::vector<Piece> pieces = {{rootRef, nullptr}};
+    while (!pieces.empty()) {
+        const Piece piece = pieces.back();
+        pieces.pop_back();
+        if (piece.text != nullptr) {
+            file.print("{}", piece.text);
+            continue;
+        }
+        file.print("[");
+        pieces.push_back({0, "]"});
+        if ((piece.ref & REF_LEAF) != 0) {
+            printLeaves(file, piece.ref, scene);
+        } else {
+            const BvhNode& node = scene.nodes[piece.ref];
+            pieces.push_back({node.ref1, nullptr});
+            pieces.push_back({0, ",\n"});
+            pieces.push_back({node.ref0, nullptr});
+        }
+    }
+}
+
+nlohmann::ordered_json describeForTree(const PreparedScene& prepared, const DeviceScene& scene)
+{
+    using Json = nlohmann::ordered_json;
+    Json json = describe(prepared);
+    json["tree"].erase("rootRef");
+    json["tree"].erase("sahCost");
+    json["materials"] = Json::array();
+    for (size_t i = 0; i < scene.materials.size(); i++) {
+        json["materials"].push_back(
+            materialJson(scene.materials[i], prepared.scene.materialNames[i]));
+    }
+    json["lights"] = Json::array();
+    for (const Light& light : scene.lights) json["lights"].push_back(lightJson(light));
+    json["objectStarts"] = prepared.scene.objectStarts;
+    return json;
+}
+
+}  // namespace
+
+void writeTreeJson(const PreparedScene& prepared, const fs::path& path)
+{
+    const DeviceScene scene = prepared.deviceScene();
+    if (!scene.instances.empty()) {
+        throw badInput("{}: it has {} instances, and JSON holds one tree; save it as .sahl, or write "
+                       "the shapes out where they are placed",
+                       prepared.scene.name, scene.instances.size());
+    }
+    const std::string description =
+        describeForTree(prepared, scene)
+            .dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+    if (description.size() > MAX_JSON_BYTES / 2) {
+        throw badInput(
+            "{}: its materials, lights and objects take {} bytes as JSON, too many to be "
+            "read back; save it as .sahl",
+            prepared.scene.name, description.size());
+    }
+    TextFile file(path);
+    file.print("{{\"sahlTree\":1,\n\"scene\":{},\n\"texels\":[", description);
+    for (size_t i = 0; i < scene.probeTexels.size(); i++) {
+        file.print("{}{}", i == 0 ? "" : ",\n", textOf(vec3(scene.probeTexels[i])));
+    }
+    file.print("],\n\"root\":");
+    printTree(file, prepared.bvh.rootRef, scene);
+    file.print("}}\n");
+    file.commit();
+}
+
+}  // namespace sahl

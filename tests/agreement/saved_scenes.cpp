@@ -1,0 +1,57 @@
+// Saved and unsaved scenes are the same scene: equal films, digests and counters, on the device and
+// on the CPU.
+#include "image/image.h"
+#include "support/device_test.h"
+#include "support/saved_files.h"
+
+namespace sahl::testing {
+namespace {
+
+class SavedScenes : public DeviceTest {
+protected:
+    /// The same film from the scene as built, from the binary file and from JSON.
+    void expectSameFilms(const PreparedScene& original)
+    {
+        const fs::path binary = folder.path / "x.sahl", json = folder.path / "x.json";
+        writeSavedScene(original, binary);
+        writeTreeJson(original, json);
+        const PreparedScene saved = loadSavedScene(binary, {}), tree = loadTreeJson(json, {});
+        auto device = openFirstDevice();
+        auto cpu = makeCpuDevice({});
+        const Film expected = renderFilm(*cpu, original);
+        EXPECT_GT(expected.counters.boxTests, 0u);
+        EXPECT_TRUE(renderFilm(*cpu, saved) == expected);
+        EXPECT_TRUE(renderFilm(*cpu, tree) == expected);
+        EXPECT_TRUE(renderFilm(*device, saved) == expected);
+        EXPECT_TRUE(renderFilm(*device, tree) == expected);
+    }
+
+    TemporaryFolder folder;
+};
+
+TEST_F(SavedScenes, ofEveryFeatureRenderToTheSameBits)
+{
+    expectSameFilms(prepareText(richScene()));
+    Image stripes = {8, 8, {}};  // the angular map that one of the scenes names
+    for (uint32_t i = 0; i < 3 * 64; i++) stripes.rgb.push_back(static_cast<float>(i % 7));
+    writeFileAtomically(folder.path / "angular.pfm", encodePfm(stripes));
+    const fs::path scenes = fs::path(__FILE__).parent_path() / "../scenes";
+    for (const auto& entry : fs::directory_iterator(scenes)) {
+        SCOPED_TRACE(entry.path().filename().string());
+        const fs::path scene = folder.path / entry.path().filename();
+        fs::copy_file(entry.path(), scene);
+        expectSameFilms(
+            prepareScene(loadScene(scene, smallPicture(16, 12, 9)), BvhBuild::automatic, 2));
+    }
+}
+
+TEST_F(SavedScenes, ofAMeshRenderToTheSameBits)
+{
+    SAHL_REQUIRE_ASSET("meshes/miro/bunny.obj");
+    const fs::path bunny = assetFolder() / "meshes/miro/bunny.obj";
+    const SceneOptions options = smallPicture(48, 48, 8);
+    expectSameFilms(prepareScene(loadScene(bunny, options), BvhBuild::automatic, 2));
+}
+
+}  // namespace
+}  // namespace sahl::testing
