@@ -1,22 +1,25 @@
-// Writes the built-in studio probe as a picture, for other renderers and for a look at it.
+// Writes a built-in probe, the studio unless named, as a picture, for other renderers and for a look at it.
 #include "scene/probe.h"
 #include "util/error.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
 int main(int argc, char** argv)
 {
     using namespace sahl;
-    const fs::path target = argc == 2 ? argv[1] : "";
+    const fs::path target = argc == 2 || argc == 3 ? argv[1] : "";
+    const std::string name = argc == 3 ? argv[2] : "studio";
+    const bool known = std::count(BUILTIN_PROBES.begin(), BUILTIN_PROBES.end(), name) == 1;
     const bool asExr = target.extension() == ".exr";
-    if (!asExr && target.extension() != ".pfm") {
-        std::fputs("usage: sahl_make_studio_probe studio.pfm|studio.exr\n", stderr);
+    if (!known || (!asExr && target.extension() != ".pfm")) {
+        std::fputs("usage: sahl_make_studio_probe FILE.pfm|FILE.exr [studio|cathedral|basilica]\n", stderr);
         return static_cast<int>(ErrorKind::usage);
     }
     try {
-        const Image studio = makeStudioProbe(STUDIO_WIDTH, STUDIO_HEIGHT);
-        writeFileAtomically(target, asExr ? encodeExr(studio, {}) : encodePfm(studio));
+        const Image probe = makeBuiltinProbe(name);
+        writeFileAtomically(target, asExr ? encodeExr(probe, {}) : encodePfm(probe));
     } catch (const Error& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return static_cast<int>(error.kind);

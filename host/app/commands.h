@@ -15,6 +15,7 @@ Command addTonemapCommand(CLI::App& app);
 Command addVerifyCommand(CLI::App& app);
 Command addBvhCommand(CLI::App& app);
 Command addDevicesCommand(CLI::App& app);
+Command addBenchCommand(CLI::App& app);
 
 /// Exit code after a signal stopped the work and what was there has been saved.
 int interruptedExitCode();

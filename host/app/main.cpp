@@ -53,9 +53,10 @@ int run(int argc, char** argv)
                                                {"tonemap", addTonemapCommand(app)},
                                                {"verify", addVerifyCommand(app)},
                                                {"bvh", addBvhCommand(app)},
-                                               {"devices", addDevicesCommand(app)}};
+                                               {"devices", addDevicesCommand(app)},
+                                               {"bench", addBenchCommand(app)}};
     if (argc < 2) {
-        say("usage: sahl render|tonemap|verify|bvh|devices [options]\ntry: sahl --help\n");
+        say("usage: sahl render|tonemap|verify|bvh|devices|bench [options]\ntry: sahl --help\n");
         return static_cast<int>(ErrorKind::usage);
     }
     app.require_subcommand(1);

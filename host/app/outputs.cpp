@@ -17,17 +17,35 @@ std::string extensionOf(const fs::path& path)
 }
 
 /// Keeps the result of long work whose outputs failed. Returns what to tell the user.
-std::string rescue(const Image& image, const ImageMetadata& metadata)
+std::string rescue(const Image& image, const OutputOptions& options, const ImageMetadata& metadata)
 {
     std::error_code ignored;
     fs::path path = fs::temp_directory_path(ignored);
     path /= fmt::format("sahl-rescued-{:08x}.exr", std::random_device{}());
     try {
-        writeFileAtomically(path, encodeExr(image, metadata));
+        writeFileAtomically(path, encodeExr(image, metadata, {}, options.place));
     } catch (const Error&) {
         return "";
     }
     return fmt::format("; the picture was saved as {}", path.string());
+}
+
+/// Writes to every path and returns the first failure.
+std::optional<Error> writeEach(const Image& image, const OutputOptions& options,
+                               const ImageMetadata& metadata,
+                               std::span<const ImageChannel> channels, bool& linearWritten)
+{
+    std::optional<Error> failure;
+    linearWritten = false;
+    for (const fs::path& path : options.paths) {
+        try {
+            writeImage(image, options, path, metadata, channels);
+            linearWritten = linearWritten || extensionOf(path) != ".png";
+        } catch (const Error& error) {
+            if (!failure) failure = error;
+        }
+    }
+    return failure;
 }
 
 }  // namespace
@@ -76,7 +94,7 @@ void writeImage(const Image& image, const OutputOptions& options, const fs::path
 {
     std::string extension = extensionOf(path);
     if (extension == ".exr") {
-        writeFileAtomically(path, encodeExr(image, metadata, channels));
+        writeFileAtomically(path, encodeExr(image, metadata, channels, options.place));
     } else if (extension == ".pfm") {
         writeFileAtomically(path, encodePfm(image));
     } else {
@@ -88,19 +106,19 @@ void writeOutputs(const Film& film, const OutputOptions& options, const ImageMet
                   std::span<const ImageChannel> channels)
 {
     Image image = meanImage(film);
-    std::optional<Error> failure;
     bool linearWritten = false;
-    for (const fs::path& path : options.paths) {
-        try {
-            writeImage(image, options, path, metadata, channels);
-            linearWritten = linearWritten || extensionOf(path) != ".png";
-        } catch (const Error& error) {
-            if (!failure) failure = error;
-        }
-    }
+    std::optional<Error> failure = writeEach(image, options, metadata, channels, linearWritten);
     if (!failure) return;
-    std::string rescued = linearWritten ? "" : rescue(image, metadata);
+    std::string rescued = linearWritten ? "" : rescue(image, options, metadata);
     throw Error(failure->kind, failure->what() + rescued);
+}
+
+void writePartialOutputs(const Film& film, const OutputOptions& options,
+                         const ImageMetadata& metadata, std::span<const ImageChannel> channels)
+{
+    bool ignored = false;
+    std::optional<Error> failure = writeEach(meanImage(film), options, metadata, channels, ignored);
+    if (failure) throw Error(*failure);
 }
 
 }  // namespace sahl

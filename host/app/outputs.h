@@ -5,6 +5,7 @@
 #include "film/film.h"
 #include "util/files.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ struct OutputOptions {
     std::vector<fs::path> paths;  ///< .exr, .pfm (linear) or .png (tone mapped)
     ToneOptions tone;
     bool firstHits = false;  ///< albedo, normals, depth and so on as layers of EXR files
+    std::optional<ImagePlace> place;  ///< of a window of the picture, told by EXR files
 };
 
 /// Refuses pictures that cannot be written, before anything is read or rendered: unknown extensions
@@ -38,5 +40,9 @@ void writeImage(const Image& image, const OutputOptions& options, const fs::path
 /// them holds is then put into the folder for temporary files, and the failure's text says so.
 void writeOutputs(const Film& film, const OutputOptions& options, const ImageMetadata& metadata,
                   std::span<const ImageChannel> channels);
+
+/// The same for a picture that is not finished: nothing is rescued.
+void writePartialOutputs(const Film& film, const OutputOptions& options,
+                         const ImageMetadata& metadata, std::span<const ImageChannel> channels);
 
 }  // namespace sahl

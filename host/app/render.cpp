@@ -2,10 +2,12 @@
 
 #include "render/render.h"
 #include "app/commands.h"
+#include "app/crop.h"
 #include "app/map_options.h"
 #include "app/option_kinds.h"
 #include "app/options.h"
 #include "app/outputs.h"
+#include "app/partial.h"
 #include "app/progress.h"
 #include "app/shading_options.h"
 #include "app/stats.h"
@@ -29,6 +31,8 @@ struct RenderOptions {
     OutputOptions output;
     MapOptions maps;
     std::string statsPath;
+    std::optional<CropWindow> crop;
+    std::optional<double> partialSeconds;
 };
 
 void addOutputOptions(CLI::App& command, RenderOptions& options)
@@ -47,6 +51,7 @@ void addOutputOptions(CLI::App& command, RenderOptions& options)
     addFlag(command, "--aovs", output.firstHits,
             "albedo, normals, depth, position and ids as layers of\nevery .exr (docs/exr.md)")
         ->group("Output");
+    addPartialOption(command, options.partialSeconds);
     command
         .add_option("--stats", options.statsPath,
                     withDefault("write statistics as JSON (docs/stats.md)", "none"))
@@ -90,12 +95,11 @@ std::vector<fs::path> checkOutputs(const RenderOptions& options)
 /// What camera rays meet, as channels of the EXR. Made before the light, so that a picture that gets
 /// interrupted has them too.
 std::vector<ImageChannel> firstHitLayers(const RenderOptions& options, const PreparedScene& prepared,
-                                         Device& device)
+                                         const RenderPlan& plan, Device& device)
 {
     if (!options.output.firstHits && !needFirstHits(options.maps)) return {};
-    const RenderSettings& settings = prepared.scene.settings;
-    uint32_t samples = std::min(BLOCK_SIZE, settings.spp);
-    return firstHitChannels(renderFirstHits(device, settings.width, settings.height, samples), samples,
+    uint32_t samples = std::min(BLOCK_SIZE, plan.sampleCount);
+    return firstHitChannels(renderFirstHits(device, plan, samples), samples,
                             prepared.scene.objectStarts);
 }
 
@@ -120,6 +124,19 @@ ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_
     return metadata;
 }
 
+/// Looks at --crop now that the size of the picture is known. Returns the size of the film.
+RenderSettings applyCrop(RenderOptions& options, RenderSettings settings)
+{
+    const CropWindow window = clipCrop(options.crop, settings.width, settings.height);
+    if (options.crop) {
+        options.crop = window;
+        options.output.place = {window.x, window.y, settings.width, settings.height};
+    }
+    settings.width = window.width;
+    settings.height = window.height;
+    return settings;
+}
+
 void printSummary(const RenderOptions& options, const PreparedScene& prepared,
                   const RenderResult& result)
 {
@@ -136,20 +153,32 @@ void printSummary(const RenderOptions& options, const PreparedScene& prepared,
     }
 }
 
-/// Writes all but the statistics.
+/// Writes all but the statistics; of a picture that is not finished the outputs alone.
 void writeAll(const RenderOptions& options, const Film& film, std::vector<ImageChannel> firstHits,
-              const ImageMetadata& metadata)
+              const ImageMetadata& metadata, bool partial)
 {
     std::vector<ImageChannel> channels = statisticsChannels(film);
     const size_t always = channels.size();
     std::move(firstHits.begin(), firstHits.end(), std::back_inserter(channels));
     std::span<const ImageChannel> layers = channels;
     if (!options.output.firstHits) layers = layers.first(always);  // the rest is for the maps
+    if (partial) return writePartialOutputs(film, options.output, metadata, layers);
     writeOutputs(film, options.output, metadata, layers);
     writeMaps(options.maps, channels, film.width, film.height, metadata);
     if (!options.output.tone.histogram.empty()) {
         writeHistogram(meanImage(film), options.output.tone, metadata);
     }
+}
+
+/// Writes the finished picture, or what there is of it after some of the passes.
+void writePictures(const RenderOptions& options, const Scene& scene, const RenderResult& result,
+                   const Device& device, std::vector<ImageChannel> firstHits, bool partial)
+{
+    uint32_t samplesTaken = std::min(scene.settings.spp, result.passes * BLOCK_SIZE);
+    ImageMetadata metadata = metadataOf(scene, result, samplesTaken, device);
+    if (options.crop) metadata["sahl.crop"] = cropText(*options.crop);
+    if (partial) metadata["sahl.partial"] = "yes";
+    writeAll(options, result.film, std::move(firstHits), metadata, partial);
 }
 
 /// What a signal left of the picture. Without a single sample no file is replaced.
@@ -187,9 +216,11 @@ int runRender(RenderOptions& options)
 
     Stopwatch watch;
     StageSeconds seconds;
+    RenderSettings filmSettings;
     PreparedScene prepared = prepareSceneFor(options.common, [&](const Scene& scene) {
         refuseToReplaceInputs(outputs);
-        requireFilmMemory(scene.settings, 1);
+        filmSettings = applyCrop(options, scene.settings);
+        requireFilmMemory(filmSettings, 1);
         seconds.load = watch.lap();
     });
     seconds.build = watch.lap();
@@ -198,21 +229,30 @@ int runRender(RenderOptions& options)
     seconds.upload = watch.lap();
 
     const RenderSettings& settings = prepared.scene.settings;
-    std::vector<ImageChannel> firstHits = firstHitLayers(options, prepared, *device);
+    RenderPlan plan = {filmSettings.width, filmSettings.height, 0, settings.spp,
+                       options.common.tileSize};
+    if (options.crop) {
+        plan.left = options.crop->x;
+        plan.top = options.crop->y;
+    }
+    std::vector<ImageChannel> firstHits = firstHitLayers(options, prepared, plan, *device);
     seconds.firstHits = watch.lap();
     ProgressPrinter printer(options.common.progress, options.common.quiet, settings.spp);
-    RenderPlan plan = {settings.width, settings.height, 0, settings.spp, options.common.tileSize};
+    PartialPictures partial(options.partialSeconds.value_or(0), [&](const RenderResult& soFar) {
+        writePictures(options, prepared.scene, soFar, *device, firstHits, true);
+    });
     RenderResult result = renderPicture(
-        *device, plan, [&](const RenderProgress& progress) { printer.update(progress); });
+        *device, plan, [&](const RenderProgress& progress) { printer.update(progress); },
+        [&](const RenderResult& soFar) {
+            if (options.partialSeconds) partial.passDone(soFar);
+        });
     printer.finish();
     seconds.render = watch.lap();
 
     if (result.interrupted) sayInterrupted(options, settings, result);
     if (result.film.counters.cameraRays == 0) return interruptedExitCode();
 
-    uint32_t samplesTaken = std::min(settings.spp, result.passes * BLOCK_SIZE);
-    writeAll(options, result.film, std::move(firstHits),
-             metadataOf(prepared.scene, result, samplesTaken, *device));
+    writePictures(options, prepared.scene, result, *device, std::move(firstHits), false);
     seconds.write = watch.lap();
     seconds.total = watch.total();
     if (!options.statsPath.empty()) {
@@ -245,6 +285,7 @@ Command addRenderCommand(CLI::App& app)
     addOutputOptions(*command, *options);
     addMapOptions(*command, options->maps);
     addSceneOptions(*command, options->common);
+    addCropOption(*command, options->crop);
     addDeviceOptions(*command, options->common);
     addMessageOptions(*command, options->common);
     command->footer(

@@ -89,6 +89,8 @@ Json statisticsJson(const PreparedScene& prepared, const Film& film, Device& dev
         {"scene",
          {{"name", scene.name},
           {"primitives", arrays.primitives.size()},
+          {"primitivesSeen", prepared.bvh.statistics.primitivesSeen},
+          {"instances", arrays.instances.size()},
           {"droppedTriangles", scene.droppedTriangles},
           {"materials", arrays.materials.size()},
           {"lights", arrays.lights.size()},

@@ -232,7 +232,7 @@ std::vector<Subtree> divideDownTo(const BinnedShared& shared, const Subtree& roo
 
 }  // namespace
 
-Draft buildBinned(std::span<const Box> boxes, unsigned threads)
+Draft buildBinned(std::span<const Box> boxes, uint levels, unsigned threads)
 {
     const size_t count = boxes.size();
     Draft draft;
@@ -242,7 +242,7 @@ Draft buildBinned(std::span<const Box> boxes, unsigned threads)
     std::vector<uint> scratch(count);
     std::vector<uint8_t> onLeft(count);
     const BinnedShared shared = {boxes, draft.order, scratch, onLeft, draft.nodes};
-    const Subtree all = {0, static_cast<uint>(count), 0, MAX_STACK_SIZE};
+    const Subtree all = {0, static_cast<uint>(count), 0, levels};
     const std::vector<Subtree> work = divideDownTo(shared, all, SUBTREE_SIZE, threads);
     parallelFor(work.size(), threads, [&](size_t i) {
         for (const Subtree& small : divideDownTo(shared, work[i], SWEEP_BELOW, 1))

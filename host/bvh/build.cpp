@@ -59,6 +59,25 @@ void requireSound(std::span<const Primitive> primitives)
 
 }  // namespace
 
+Bvh buildTree(const TreeItems& items, uint levels, BvhBuild build, unsigned threads)
+{
+    const size_t count = items.primitives.size() + items.instanceBoxes.size();
+    if (build == BvhBuild::automatic)
+        build = count < BINNED_FROM ? BvhBuild::sweep : BvhBuild::binned;
+
+    Bvh bvh;
+    if (count > 0) {
+        requireSound(items.primitives);
+        std::vector<Box> boxes = boxesOf(items.primitives, threads);
+        boxes.insert(boxes.end(), items.instanceBoxes.begin(), items.instanceBoxes.end());
+        const Draft draft = build == BvhBuild::sweep ? buildSweep(boxes, levels, threads)
+                                                     : buildBinned(boxes, levels, threads);
+        bvh = flatten(draft, items, boxes);
+    }
+    bvh.statistics.build = build;
+    return bvh;
+}
+
 Bvh buildBvh(std::span<const Primitive> primitives, BvhBuild build, unsigned threads)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -67,18 +86,8 @@ Bvh buildBvh(std::span<const Primitive> primitives, BvhBuild build, unsigned thr
                        "simplify or divide the scene",
                        primitives.size(), MAX_PRIMITIVES);
     }
-    if (build == BvhBuild::automatic)
-        build = primitives.size() < BINNED_FROM ? BvhBuild::sweep : BvhBuild::binned;
-
-    Bvh bvh;
-    if (!primitives.empty()) {
-        requireSound(primitives);
-        const std::vector<Box> boxes = boxesOf(primitives, threads);
-        const Draft draft =
-            build == BvhBuild::sweep ? buildSweep(boxes, threads) : buildBinned(boxes, threads);
-        bvh = flatten(draft, primitives, boxes);
-    }
-    bvh.statistics.build = build;
+    Bvh bvh = buildTree({primitives, {}, {}}, MAX_STACK_SIZE, build, threads);
+    bvh.statistics.primitivesSeen = primitives.size();
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     bvh.statistics.seconds = elapsed.count();
     return bvh;

@@ -18,18 +18,22 @@ enum class BvhBuild {
 struct BvhStatistics {
     uint64_t innerNodes = 0;
     uint64_t leaves = 0;
-    uint32_t depth = 0;        ///< inner nodes on the longest way from the root to a leaf
+    uint32_t depth = 0;        ///< inner nodes on the longest way from the root to a leaf; with
+                               ///< instances, of both levels and 1 for the step between them
     uint32_t largestLeaf = 0;  ///< primitives
     double sahCost = 0;        ///< expected box and primitive tests of a random ray that hits the
                                ///< root's box; 0 when that has no area
-    double seconds = 0;        ///< to build
+    uint64_t primitivesSeen = 0;  ///< by rays: those of an object once for each of its instances
+    double seconds = 0;           ///< to build
     BvhBuild build = BvhBuild::sweep;
 };
 
-/// The tree, and the primitives in the order of its leaves.
+/// The tree, and the primitives in the order of its leaves. With instances (bvh/instances.h), the
+/// world's tree and those of the objects one after the other.
 struct Bvh {
     std::vector<BvhNode> nodes;
     std::vector<Primitive> primitives;
+    std::vector<ObjectInstance> instances;
     uint rootRef = REF_NONE;
     BvhStatistics statistics;
 };

@@ -83,11 +83,23 @@ inline Subtree rightOf(const Subtree& tree, uint leftCount)
             tree.levels - 1};
 }
 
-/// The two builders. `boxes` is not empty; the result does not depend on `threads`.
-Draft buildSweep(std::span<const Box> boxes, unsigned threads);
-Draft buildBinned(std::span<const Box> boxes, unsigned threads);
+/// The two builders. `boxes` is not empty; the result does not depend on `threads`. At most
+/// `levels` inner nodes follow one another.
+Draft buildSweep(std::span<const Box> boxes, uint levels, unsigned threads);
+Draft buildBinned(std::span<const Box> boxes, uint levels, unsigned threads);
 
-/// The tree as the device reads it, with its statistics except `seconds` and `build`.
-Bvh flatten(const Draft& draft, std::span<const Primitive> primitives, std::span<const Box> boxes);
+/// What a tree is over. In the draft the instances are numbered after the primitives.
+struct TreeItems {
+    std::span<const Primitive> primitives;
+    std::span<const Box> instanceBoxes;
+    std::span<const double> instanceCosts;  ///< expected tests of a ray that meets the box
+};
+
+/// The tree as the device reads it, with its statistics except `seconds` and `build`. An instance
+/// has no leaf but a reference of its own.
+Bvh flatten(const Draft& draft, const TreeItems& items, std::span<const Box> boxes);
+
+/// Checks the items, picks the builder and flattens: one level of a scene's trees.
+Bvh buildTree(const TreeItems& items, uint levels, BvhBuild build, unsigned threads);
 
 }  // namespace sahl

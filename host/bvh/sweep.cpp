@@ -136,7 +136,7 @@ void sortByCentre(std::span<const Box> boxes, std::span<const uint> numbers, int
     for (size_t i = 0; i < keys.size(); i++) sorted[i] = keys[i].second;
 }
 
-Draft buildSweep(std::span<const Box> boxes, unsigned threads)
+Draft buildSweep(std::span<const Box> boxes, uint levels, unsigned threads)
 {
     const size_t count = boxes.size();
     Draft draft;
@@ -154,7 +154,7 @@ Draft buildSweep(std::span<const Box> boxes, unsigned threads)
     const SweepShared shared = {boxes, onLeft, draft.nodes};
     const SweepRange all = {sorted, numbers, areas};
     std::vector<SweepWork> work =
-        divideLarge(shared, {all, {0, static_cast<uint>(count), 0, MAX_STACK_SIZE}});
+        divideLarge(shared, {all, {0, static_cast<uint>(count), 0, levels}});
     parallelFor(work.size(), threads,
                 [&](size_t i) { sweepSubtree(shared, work[i].range, work[i].tree); });
     return draft;

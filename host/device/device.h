@@ -22,6 +22,7 @@ struct DeviceScene {
     std::span<const Material> materials;
     std::span<const Light> lights;
     std::span<const vec4> probeTexels;
+    std::span<const ObjectInstance> instances;
     Frame frame = {};
     uint32_t treeDepth = 0;  ///< decides the size of the traversal stack
 };

@@ -62,7 +62,7 @@ public:
 
 private:
     ComputePipeline makePipeline(const std::string& kernel, uint32_t bindingCount) const;
-    void preparePipeline(bool texel, uint32_t stackSize);
+    void preparePipeline(bool texel, bool instances, uint32_t stackSize);
     void prepareTileBuffers(size_t pixels);
     void prepareFirstHits(size_t pixels);
     void bindAll(ComputePipeline& pipeline);
@@ -82,6 +82,7 @@ private:
     ComputePipeline firstHitsPipeline_;          // made when first asked for
     const ComputePipeline* active_ = nullptr;    // the one of the two that dispatches use
     bool pipelineTexel_ = false;
+    bool pipelineInstances_ = false;
     uint32_t pipelineStack_ = 0;  // 0: no pipeline yet
     std::unique_ptr<VulkanScene> scene_;
     Buffer pixels_, suspended_;   // as large as the largest tile so far
@@ -119,7 +120,7 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     auto start = std::chrono::steady_clock::now();
     auto uploaded = std::make_unique<VulkanScene>(uploadScene(*context_, scene, options_.buffers));
     statistics_.uploadSeconds += secondsSince(start);
-    preparePipeline(uploaded->texel, stackSize);
+    preparePipeline(uploaded->texel, !scene.instances.empty(), stackSize);
     scene_ = std::move(uploaded);
     statistics_.sceneBytes = scene_->bytes;
     statistics_.texelBuffers = scene_->texel;
@@ -134,6 +135,7 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     request.bindings.assign(SCENE_BUFFER_COUNT, pipelineTexel_
                                                     ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
                                                     : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+    request.bindings[BINDING_INSTANCES] = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
     request.bindings.resize(bindingCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     request.bindings[BINDING_FRAME] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     request.pushConstantBytes = sizeof(Dispatch);
@@ -143,14 +145,17 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     request.specialisation[SPEC_STACK_SIZE] = pipelineStack_;
     request.specialisation[SPEC_ORDER] = options_.traversalOrder;
     request.specialisation[SPEC_EXACT_MATH] = statistics_.exactMath ? 1 : 0;
+    request.specialisation[SPEC_INSTANCES] = pipelineInstances_ ? 1 : 0;
     return createComputePipeline(*context_, request);
 }
 
-void VulkanDevice::preparePipeline(bool texel, uint32_t stackSize)
+void VulkanDevice::preparePipeline(bool texel, bool instances, uint32_t stackSize)
 {
-    if (pipelineStack_ == stackSize && pipelineTexel_ == texel) return;
+    if (pipelineStack_ == stackSize && pipelineTexel_ == texel && pipelineInstances_ == instances)
+        return;
     pipelineStack_ = stackSize;
     pipelineTexel_ = texel;
+    pipelineInstances_ = instances;
     firstHitsPipeline_ = {};
     firstHitsBound_ = false;
     try {
@@ -177,7 +182,7 @@ void VulkanDevice::prepareTileBuffers(size_t pixels)
 
 void VulkanDevice::prepareFirstHits(size_t pixels)
 {
-    uint32_t storageBuffers = (pipelineTexel_ ? 0 : SCENE_BUFFER_COUNT) + 3;
+    uint32_t storageBuffers = (pipelineTexel_ ? 0 : SCENE_BUFFER_COUNT - 1) + 3;
     uint32_t allowed = context_->physical.properties.limits.maxPerStageDescriptorStorageBuffers;
     if (storageBuffers > allowed)
         throw Error(ErrorKind::noDevice,

@@ -9,43 +9,62 @@ namespace {
 
 constexpr uint64_t TEXEL_BYTES = 16;
 constexpr uint32_t TILE_STORAGE_BUFFERS = 2;  // pixels and suspended paths
-constexpr uint32_t ALL_STORAGE_BUFFERS = TILE_STORAGE_BUFFERS + SCENE_BUFFER_COUNT;
+// Instances are read through a texel buffer in any case, which every Vulkan device has.
+constexpr uint32_t ALL_STORAGE_BUFFERS = TILE_STORAGE_BUFFERS + SCENE_BUFFER_COUNT - 1;
+
+/// Empty, or why a shader cannot have so many texel buffers.
+std::string whyNoTexelBuffers(const PhysicalDevice& device, uint32_t needed)
+{
+    uint32_t allowed = device.properties.limits.maxPerStageDescriptorSampledImages;
+    if (!device.rgba32uiTexelBuffers) return "no texel buffers of format R32G32B32A32_UINT";
+    if (allowed < needed)
+        return fmt::format("{} texel buffers a shader, needs {}", allowed, needed);
+    return {};
+}
 
 /// Empty, or why scenes cannot be read through texel buffers at all.
 std::string whyNoTexelBuffers(const PhysicalDevice& device)
 {
-    uint32_t allowed = device.properties.limits.maxPerStageDescriptorSampledImages;
-    if (!device.rgba32uiTexelBuffers) return "no texel buffers of format R32G32B32A32_UINT";
-    if (allowed < SCENE_BUFFER_COUNT)
-        return fmt::format("{} texel buffers a shader, needs {}", allowed, SCENE_BUFFER_COUNT);
-    return {};
+    return whyNoTexelBuffers(device, SCENE_BUFFER_COUNT);
 }
 
 std::string whyNoStorageBuffers(const PhysicalDevice& device)
 {
+    std::string noInstances = whyNoTexelBuffers(device, 1);
+    if (!noInstances.empty()) return noInstances;
     uint32_t allowed = device.properties.limits.maxPerStageDescriptorStorageBuffers;
     if (allowed < ALL_STORAGE_BUFFERS)
         return fmt::format("{} storage buffers a shader, needs {}", allowed, ALL_STORAGE_BUFFERS);
     return {};
 }
 
-/// Empty, or the first array that is too large for one binding.
-std::string whyTooLarge(const SceneBytes& bytes, uint64_t unit, uint64_t limit,
+/// Empty, or why the array at a binding is too large for it.
+std::string whyTooLarge(const SceneBytes& bytes, uint32_t binding, uint64_t unit, uint64_t limit,
                         const char* unitName)
 {
-    for (uint32_t i = 0; i < SCENE_BUFFER_COUNT; i++)
-        if (bytes[i] / unit > limit)
-            return fmt::format("array '{}' has {} {}, the device allows {}", sceneArrayName(i),
-                               bytes[i] / unit, unitName, limit);
-    return {};
+    if (bytes[binding] / unit <= limit) return {};
+    return fmt::format("array '{}' has {} {}, the device allows {}", sceneArrayName(binding),
+                       bytes[binding] / unit, unitName, limit);
+}
+
+/// Empty, or the first array that is too large for its binding.
+std::string whyTooLarge(const PhysicalDevice& device, const SceneBytes& bytes, bool texel)
+{
+    const VkPhysicalDeviceLimits& limits = device.properties.limits;
+    std::string why;
+    for (uint32_t i = 0; i < SCENE_BUFFER_COUNT && why.empty(); i++)
+        why = texel || i == BINDING_INSTANCES
+                  ? whyTooLarge(bytes, i, TEXEL_BYTES, limits.maxTexelBufferElements, "texels")
+                  : whyTooLarge(bytes, i, 1, limits.maxStorageBufferRange, "bytes");
+    return why;
 }
 
 }  // namespace
 
 const char* sceneArrayName(uint32_t binding)
 {
-    constexpr const char* NAMES[SCENE_BUFFER_COUNT] = {"nodes",     "primitives", "normals",
-                                                       "materials", "lights",    "probe"};
+    constexpr const char* NAMES[SCENE_BUFFER_COUNT] = {"nodes",  "primitives", "normals",  "materials",
+                                                       "lights", "probe",      "instances"};
     return NAMES[binding];
 }
 
@@ -70,12 +89,10 @@ std::string whyUnusable(const PhysicalDevice& device)
 bool chooseTexelBuffers(const PhysicalDevice& device, const SceneBytes& bytes,
                         DeviceOptions::Buffers wanted)
 {
-    const VkPhysicalDeviceLimits& limits = device.properties.limits;
     std::string noTexels = whyNoTexelBuffers(device);
-    if (noTexels.empty())
-        noTexels = whyTooLarge(bytes, TEXEL_BYTES, limits.maxTexelBufferElements, "texels");
+    if (noTexels.empty()) noTexels = whyTooLarge(device, bytes, true);
     std::string noStorage = whyNoStorageBuffers(device);
-    if (noStorage.empty()) noStorage = whyTooLarge(bytes, 1, limits.maxStorageBufferRange, "bytes");
+    if (noStorage.empty()) noStorage = whyTooLarge(device, bytes, false);
 
     if (wanted != DeviceOptions::Buffers::storage && noTexels.empty()) return true;
     if (wanted != DeviceOptions::Buffers::texel && noStorage.empty()) return false;

@@ -3,6 +3,8 @@
 #include "device/vulkan_limits.h"
 #include "shared/bindings.h"
 
+#include <limits>
+
 namespace sahl {
 
 namespace {
@@ -18,16 +20,20 @@ SceneArrays sceneArrays(const DeviceScene& scene)
     arrays[BINDING_MATERIALS] = std::as_bytes(scene.materials);
     arrays[BINDING_LIGHTS] = std::as_bytes(scene.lights);
     arrays[BINDING_PROBE] = std::as_bytes(scene.probeTexels);
+    arrays[BINDING_INSTANCES] = std::as_bytes(scene.instances);
     return arrays;
 }
 
-// A ray visits each node and each triangle at most once, and a path has two rays a bounce, or under
-// phong one for each light.
+// A ray visits each node and each triangle at most once, or once for each instance. A path has two rays
+// a bounce, or under phong one for each light.
 uint64_t mostStepsPerSample(const DeviceScene& scene)
 {
     uint64_t rays = 2 * (uint64_t{scene.frame.maxBounces} + 2);
     if (scene.frame.integrator == INTEGRATOR_PHONG) rays = 1 + uint64_t{scene.frame.lightCount};
-    return rays * (2 * uint64_t{scene.nodes.size()} + scene.primitives.size() + 16);
+    uint64_t once = 2 * uint64_t{scene.nodes.size()} + scene.primitives.size() + 16;
+    uint64_t visits = scene.instances.size() + 1;
+    constexpr uint64_t MOST = std::numeric_limits<uint64_t>::max();
+    return once > MOST / rays / visits ? MOST : rays * once * visits;
 }
 
 void requireMemory(const PhysicalDevice& device, uint64_t bytes)
@@ -64,10 +70,12 @@ VulkanScene uploadScene(Context& context, const DeviceScene& scene, DeviceOption
     result.stepsPerSample = mostStepsPerSample(scene);
     requireMemory(context.physical, result.bytes);
 
-    VkBufferUsageFlags usage = result.texel ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT
+    for (uint32_t i = 0; i < SCENE_BUFFER_COUNT; i++) {
+        bool asTexels = result.texel || i == BINDING_INSTANCES;
+        VkBufferUsageFlags usage = asTexels ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT
                                             : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    for (uint32_t i = 0; i < SCENE_BUFFER_COUNT; i++)
         result.arrays.push_back(uploadArray(context, sceneArrayName(i), usage, arrays[i]));
+    }
     result.frame = uploadArray(context, "frame", VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                                std::as_bytes(std::span(&scene.frame, 1)));
     return result;

@@ -34,14 +34,23 @@ private:
     size_t pos_ = 0;
 };
 
+Imath::Box2i windowOf(uint32_t left, uint32_t top, uint32_t width, uint32_t height)
+{
+    const Imath::V2i first(static_cast<int>(left), static_cast<int>(top));
+    return {first, first + Imath::V2i(static_cast<int>(width) - 1, static_cast<int>(height) - 1)};
+}
+
 }  // namespace
 
 std::vector<uint8_t> encodeExr(const Image& image, const ImageMetadata& metadata,
-                               std::span<const ImageChannel> channels)
+                               std::span<const ImageChannel> channels,
+                               const std::optional<ImagePlace>& place)
 {
     assert(image.width > 0 && image.height > 0);
     assert(image.rgb.size() == size_t{3} * image.width * image.height);
-    Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
+    const ImagePlace at = place.value_or(ImagePlace{0, 0, image.width, image.height});
+    Imf::Header header(windowOf(0, 0, at.fullWidth, at.fullHeight),
+                       windowOf(at.left, at.top, image.width, image.height));
     header.compression() = Imf::ZIP_COMPRESSION;
     for (const auto& [name, text] : metadata) header.insert(name, Imf::StringAttribute(text));
 

@@ -4,6 +4,7 @@
 #include "util/files.h"
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,10 +39,18 @@ struct ImageChannel {
     std::vector<float> values;  ///< width * height, top row first
 };
 
+/// Where a picture lies in a larger one [pixels].
+struct ImagePlace {
+    uint32_t left = 0, top = 0;
+    uint32_t fullWidth = 0, fullHeight = 0;
+};
+
 /// Encoders: the complete file in memory, to be written by writeFileAtomically.
-/// EXR: float32, ZIP; `channels` beside R, G and B.
+/// EXR: float32, ZIP; `channels` beside R, G and B. With a place the data window is the picture, the
+/// display window the larger one.
 std::vector<uint8_t> encodeExr(const Image& image, const ImageMetadata& metadata,
-                               std::span<const ImageChannel> channels = {});
+                               std::span<const ImageChannel> channels = {},
+                               const std::optional<ImagePlace>& place = {});
 std::vector<uint8_t> encodePng(const Image8& image, const ImageMetadata& metadata);
 std::vector<uint8_t> encodePfm(const Image& image);
 

@@ -18,11 +18,13 @@ namespace sahl::reference {
 
 using namespace glm;  // GLSL's names: floor, sqrt, floatBitsToUint, ...
 
-/// One invocation. Order is one of ORDER_*.
-template <uint Order = ORDER_NEAR_FIRST>
+/// One invocation. Order is one of ORDER_*. Scenes without instances are rendered without Instances,
+/// which takes a few per cent less time and changes nothing else.
+template <uint Order = ORDER_NEAR_FIRST, bool Instances = true>
 struct Kernel {
     static constexpr uint STACK_SIZE = MAX_STACK_SIZE;
     static constexpr uint TRAVERSAL_ORDER = Order;
+    static constexpr bool HAS_INSTANCES = Instances;
     static constexpr bool EXACT_MATH = false;  // C++ divides and takes roots exactly anyway
 
     std::span<const BvhNode> nodes;
@@ -31,6 +33,7 @@ struct Kernel {
     std::span<const Material> materials;
     std::span<const Light> lights;
     std::span<const vec4> probeTexels;
+    std::span<const ObjectInstance> instances;
     Frame frame = {};
 
     const BvhNode& loadNode(uint index) const { return nodes[index]; }
@@ -38,6 +41,7 @@ struct Kernel {
     const TriangleNormals& loadNormals(uint index) const { return triangleNormals[index]; }
     const Material& loadMaterial(uint index) const { return materials[index]; }
     const Light& loadLight(uint index) const { return lights[index]; }
+    const ObjectInstance& loadInstance(uint index) const { return instances[index]; }
     vec3 loadProbeTexel(uint index) const { return vec3(probeTexels[index]); }
 
 #include "pathtrace/pathtrace.glsl"

@@ -7,26 +7,27 @@ namespace sahl::reference {
 
 namespace {
 
-template <uint Order>
-Kernel<Order> kernelFor(const DeviceScene& scene)
+template <uint Order, bool Instances>
+Kernel<Order, Instances> kernelFor(const DeviceScene& scene)
 {
-    Kernel<Order> kernel = {};
+    Kernel<Order, Instances> kernel = {};
     kernel.nodes = scene.nodes;
     kernel.primitives = scene.primitives;
     kernel.triangleNormals = scene.triangleNormals;
     kernel.materials = scene.materials;
     kernel.lights = scene.lights;
     kernel.probeTexels = scene.probeTexels;
+    kernel.instances = scene.instances;
     kernel.frame = scene.frame;
     return kernel;
 }
 
-template <uint Order>
+template <uint Order, bool Instances = true>
 void renderTileInOrder(const DeviceScene& scene, const TileRequest& tile, unsigned threads,
                        std::span<PixelBlock> blocks)
 {
     parallelFor(tile.height, threads, [&](size_t row) {
-        auto kernel = kernelFor<Order>(scene);
+        auto kernel = kernelFor<Order, Instances>(scene);
         for (uint x = 0; x < tile.width; x++) {
             PixelBlock block = {};
             for (uint i = 0; i < tile.sampleCount; i++) {
@@ -44,7 +45,7 @@ void renderFirstHits(const DeviceScene& scene, const TileRequest& tile, unsigned
                      std::span<FirstHits> pixels)
 {
     parallelFor(tile.height, threads, [&](size_t row) {
-        auto kernel = kernelFor<ORDER_NEAR_FIRST>(scene);
+        auto kernel = kernelFor<ORDER_NEAR_FIRST, true>(scene);
         for (uint x = 0; x < tile.width; x++) {
             FirstHits sums = kernel.noFirstHits();
             for (uint i = 0; i < tile.sampleCount; i++) {
@@ -62,8 +63,11 @@ void renderTile(const DeviceScene& scene, const TileRequest& tile, uint order, u
     switch (order) {
     case ORDER_LEFT_FIRST: return renderTileInOrder<ORDER_LEFT_FIRST>(scene, tile, threads, blocks);
     case ORDER_RIGHT_FIRST: return renderTileInOrder<ORDER_RIGHT_FIRST>(scene, tile, threads, blocks);
-    default: return renderTileInOrder<ORDER_NEAR_FIRST>(scene, tile, threads, blocks);
+    default: break;
     }
+    if (scene.instances.empty())
+        return renderTileInOrder<ORDER_NEAR_FIRST, false>(scene, tile, threads, blocks);
+    renderTileInOrder<ORDER_NEAR_FIRST, true>(scene, tile, threads, blocks);
 }
 
 std::string compilerName()

@@ -1,5 +1,7 @@
 #include "render/prepare.h"
 
+#include <algorithm>
+
 namespace sahl {
 
 namespace {
@@ -12,7 +14,18 @@ DeviceScene ownArrays(const Scene& scene, const Bvh& bvh)
     view.triangleNormals = scene.triangleNormals;
     view.materials = scene.materials;
     view.lights = scene.lights;
+    view.instances = bvh.instances;
     return view;
+}
+
+/// Largest coordinate at which a ray of the camera may start.
+double reachOf(const Camera& camera)
+{
+    const glm::dvec3 lens = glm::abs(glm::dvec3(camera.lensRight)) + glm::abs(glm::dvec3(camera.lensDown));
+    const glm::dvec3 across = glm::abs(glm::dvec3(camera.right)) + glm::abs(glm::dvec3(camera.down));
+    const bool parallel = camera.type == CAMERA_ORTHOGRAPHIC;
+    const glm::dvec3 p = glm::abs(glm::dvec3(camera.position)) + lens + (parallel ? across : glm::dvec3(0.0));
+    return std::max({p.x, p.y, p.z});
 }
 
 }  // namespace
@@ -41,9 +54,18 @@ DeviceScene PreparedScene::deviceScene() const
 PreparedScene prepareScene(Scene scene, BvhBuild build, unsigned threads)
 {
     PreparedScene prepared;
-    prepared.bvh = buildBvh(scene.primitives, build, threads);
+    if (scene.instances.empty()) {
+        prepared.bvh = buildBvh(scene.primitives, build, threads);
+    } else {
+        prepared.bvh = buildTwoLevels(scene.primitives, scene.objects, scene.instances,
+                                      reachOf(scene.camera), build, threads);
+    }
     prepared.scene = std::move(scene);
     prepared.scene.primitives = {};
+    prepared.scene.objects = {};
+    prepared.scene.instances = {};
+    for (const ObjectInstance& instance : prepared.bvh.instances)
+        prepared.scene.objectStarts.push_back(instance.firstNumber);
     return prepared;
 }
 

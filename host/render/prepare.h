@@ -10,7 +10,8 @@
 
 namespace sahl {
 
-/// A scene with its tree. scene.primitives is empty: they are in bvh.primitives, in leaf order.
+/// A scene with its tree. scene.primitives, objects and instances are empty: they are in bvh, the
+/// primitives in leaf order. scene.objectStarts counts instances as objects, after the world's.
 struct PreparedScene {
     Scene scene;
     Bvh bvh;

@@ -15,6 +15,14 @@ uint64_t raysOf(const Counters& counters)
     return counters.cameraRays + counters.indirectRays + counters.shadowRays;
 }
 
+/// A tile of the plan's window, where it is in the full picture.
+TileRequest inFullPicture(TileRequest tile, const RenderPlan& plan)
+{
+    tile.x += plan.left;
+    tile.y += plan.top;
+    return tile;
+}
+
 /// A rendered tile that waits for its pass to be complete.
 struct FinishedTile {
     TileRequest tile;
@@ -52,7 +60,8 @@ std::vector<TileRequest> tilesOf(uint32_t width, uint32_t height, uint32_t tileS
 }
 
 RenderResult renderPicture(Device& device, const RenderPlan& plan,
-                           const std::function<void(const RenderProgress&)>& report)
+                           const std::function<void(const RenderProgress&)>& report,
+                           const std::function<void(const RenderResult&)>& passDone)
 {
     auto start = std::chrono::steady_clock::now();
     auto secondsSoFar = [&] {
@@ -75,7 +84,7 @@ RenderResult renderPicture(Device& device, const RenderPlan& plan,
             tile.firstSample = plan.firstSample + done;
             tile.sampleCount = count;
             pass.push_back({tile, std::vector<PixelBlock>(size_t{tile.width} * tile.height)});
-            device.render(tile, pass.back().blocks);
+            device.render(inFullPicture(tile, plan), pass.back().blocks);
 
             for (const PixelBlock& block : pass.back().blocks) {
                 progress.rays += uint64_t{block.samplesDone} + block.indirectRays + block.shadowRays;
@@ -93,19 +102,21 @@ RenderResult renderPicture(Device& device, const RenderPlan& plan,
         progress.samplesDone = done;
         progress.rays = raysOf(result.film.counters);
         progress.relativeError = relativeError(result.film);
+        result.seconds = secondsSoFar();
+        if (passDone && done < plan.sampleCount) passDone(result);
     }
     result.seconds = secondsSoFar();
     return result;
 }
 
-std::vector<FirstHits> renderFirstHits(Device& device, uint32_t width, uint32_t height,
-                                       uint32_t samples)
+std::vector<FirstHits> renderFirstHits(Device& device, const RenderPlan& plan, uint32_t samples)
 {
+    const uint32_t width = plan.width, height = plan.height;
     std::vector<FirstHits> picture(size_t{width} * height);
     for (TileRequest tile : tilesOf(width, height, 0, device.maxTilePixels())) {
         tile.sampleCount = samples;
         std::vector<FirstHits> pixels(size_t{tile.width} * tile.height);
-        device.renderFirstHits(tile, pixels);
+        device.renderFirstHits(inFullPicture(tile, plan), pixels);
         for (uint32_t row = 0; row < tile.height; row++) {
             std::copy_n(pixels.begin() + row * tile.width, tile.width,
                         picture.begin() + (tile.y + row) * width + tile.x);

@@ -8,12 +8,13 @@
 
 namespace sahl {
 
-/// Which samples to take of the whole picture, and in what pieces. The pieces change no bit.
+/// Which samples to take of which pixels, and in what pieces. The pieces change no bit.
 struct RenderPlan {
-    uint32_t width = 0, height = 0;  ///< [pixels]
+    uint32_t width = 0, height = 0;  ///< of the picture, or of a window in it [pixels]
     uint32_t firstSample = 0;        ///< multiple of BLOCK_SIZE
     uint32_t sampleCount = 0;        ///< per pixel, at least 1
     uint32_t tileSize = 0;           ///< side of a tile [pixels]; 0: as large as the device takes
+    uint32_t left = 0, top = 0;      ///< of the window, in the scene's full picture [pixels]
 };
 
 struct RenderProgress {
@@ -33,14 +34,16 @@ struct RenderResult {
 };
 
 /// Calls device.render() for every tile of every pass; the device's scene must be set.
-/// `report` is called after every tile.
+/// The film has the plan's width and height; every pixel is that of the full picture, bit for bit.
+/// `report` is called after every tile, `passDone` with the film so far after every whole pass but
+/// the last.
 RenderResult renderPicture(Device& device, const RenderPlan& plan,
-                           const std::function<void(const RenderProgress&)>& report);
+                           const std::function<void(const RenderProgress&)>& report,
+                           const std::function<void(const RenderResult&)>& passDone = {});
 
-/// What the first `samples` (at most BLOCK_SIZE) camera rays of every pixel meet; width * height,
-/// top row first. The device's scene must be set.
-std::vector<FirstHits> renderFirstHits(Device& device, uint32_t width, uint32_t height,
-                                       uint32_t samples);
+/// What the first `samples` (at most BLOCK_SIZE) camera rays of every pixel of the plan meet; width *
+/// height, top row first. The device's scene must be set.
+std::vector<FirstHits> renderFirstHits(Device& device, const RenderPlan& plan, uint32_t samples);
 
 /// The tiles of a picture, row by row: no tile has more than maxPixels.
 std::vector<TileRequest> tilesOf(uint32_t width, uint32_t height, uint32_t tileSize, uint32_t maxPixels);

@@ -7,6 +7,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <map>
+#include <set>
 #include <vector>
 
 namespace sahl {
@@ -41,6 +43,25 @@ bool sameBits(const vec3& a, const vec3& b)
     return std::bit_cast<std::array<uint32_t, 3>>(a) == std::bit_cast<std::array<uint32_t, 3>>(b);
 }
 
+/// Numbers of which each is to be met once, all below their count.
+class NumberCheck {
+public:
+    explicit NumberCheck(uint64_t count) : count_(count), seen_((count + 63) / 64) {}
+
+    bool isNew(uint number)
+    {
+        if (number >= count_) return false;
+        const uint64_t bit = uint64_t{1} << (number % 64);
+        const bool fresh = (seen_[number / 64] & bit) == 0;
+        seen_[number / 64] |= bit;
+        return fresh;
+    }
+
+private:
+    uint64_t count_;
+    std::vector<uint64_t> seen_;
+};
+
 /// Walks down the tree without recursion, left before right. In a tree that the builder laid out,
 /// nodes and primitives then come one after another, so each is met once and nothing can go round
 /// in circles.
@@ -49,8 +70,10 @@ public:
     TreeCheck(const std::string& file, const DeviceScene& scene) : file_(file), scene_(scene) {}
 
     /// The tree behind `root`, which owns the nodes and primitives from where the last one ended.
-    void walk(uint root)
+    /// Returns the number of its primitives.
+    uint64_t walk(uint root)
     {
+        const uint64_t before = primitives_;
         Box below;
         bool arrived = enter(root, below);
         while (!open_.empty()) {
@@ -61,10 +84,27 @@ public:
                 arrived = enter(open_.back().second ? node.ref1 : node.ref0, below);
             }
         }
+        return primitives_ - before;
     }
+
+    /// From now on the trees are those of objects, in which no instances may be.
+    void endWorld()
+    {
+        worldDepth_ = statistics.depth;
+        inObjects_ = true;
+    }
+
+    /// How a root would be referred to that lies where the last tree ended.
+    uint nextNode() const { return static_cast<uint>(nodes_); }
+    uint nextPrimitive() const { return static_cast<uint>(primitives_); }
 
     void requireAllVisited() const
     {
+        if (instancesSeen_ != scene_.instances.size()) {
+            throw damaged(
+                file_, "instances",
+                fmt::format("the tree has {} of {}", instancesSeen_, scene_.instances.size()));
+        }
         if (nodes_ == scene_.nodes.size() && primitives_ == scene_.primitives.size()) return;
         throw damaged(file_, "nodes",
                       fmt::format("the tree has {} nodes and {} primitives, the file {} and {}",
@@ -98,17 +138,22 @@ private:
             box = leafBox(ref);
             return true;
         }
+        if ((ref & REF_INSTANCE) != 0) {
+            box = instanceBox(ref & ~REF_INSTANCE);
+            return true;
+        }
         if (ref != nodes_ || ref >= scene_.nodes.size()) {
             throw wrong(fmt::format("it refers to node {}; {} of {} is expected", ref, nodes_,
                                     scene_.nodes.size()));
         }
-        if (open_.size() == MAX_STACK_SIZE) {
+        const size_t above = inObjects_ ? worldDepth_ + 1 : 0;  // of the world, and the way back
+        if (above + open_.size() >= MAX_STACK_SIZE) {
             throw wrong(fmt::format("the tree is deeper than {} nodes", MAX_STACK_SIZE));
         }
         nodes_++;
         open_.push_back({ref, false, {}});
         statistics.innerNodes = nodes_;
-        statistics.depth = std::max(statistics.depth, static_cast<uint32_t>(open_.size()));
+        statistics.depth = std::max(statistics.depth, static_cast<uint32_t>(above + open_.size()));
         return false;
     }
 
@@ -130,6 +175,17 @@ private:
         below = open.box;
         open_.pop_back();
         return true;
+    }
+
+    Box instanceBox(uint index)
+    {
+        if (inObjects_) throw wrong("an instance inside the object of another");
+        if (!instances_.isNew(index)) {
+            throw wrong(fmt::format("instance {}; there are {}, and each is met once", index,
+                                    scene_.instances.size()));
+        }
+        instancesSeen_++;
+        return {scene_.instances[index].lo, scene_.instances[index].hi};
     }
 
     Box leafBox(uint ref)
@@ -154,20 +210,95 @@ private:
 
     const std::string& file_;
     const DeviceScene& scene_;
+    NumberCheck instances_{scene_.instances.size()};
+    uint64_t instancesSeen_ = 0;
+    bool inObjects_ = false;
+    uint32_t worldDepth_ = 0;
     std::vector<Open> open_;  ///< from the root down
     uint64_t nodes_ = 0;      ///< visited, which is the number of the next one
     uint64_t primitives_ = 0;
 };
 
-BvhStatistics checkTree(const std::string& file, const DeviceScene& scene, uint rootRef)
+/// The trees of a scene: how many primitives each has, in the order in which they lie in the file.
+struct CheckedTrees {
+    BvhStatistics statistics;
+    uint64_t world = 0;
+    std::map<uint, uint64_t> objects;  ///< by reference to their roots
+    std::vector<uint64_t> inOrder;     ///< the objects', as they lie in the file
+};
+
+/// The object's tree that begins where the last one ended, which one of `roots` must name.
+uint nextRoot(const std::string& file, const TreeCheck& check, const std::set<uint>& roots)
+{
+    const uint leaf = REF_LEAF | check.nextPrimitive() << LEAF_COUNT_BITS;
+    const auto found = roots.lower_bound(leaf);
+    if (found != roots.end() && *found < leaf + MAX_LEAF_SIZE) return *found;
+    if (roots.contains(check.nextNode())) return check.nextNode();
+    throw damaged(file, "instances",
+                  fmt::format("none has its object's tree at node {}, primitive {}, where the one "
+                              "before ends",
+                              check.nextNode(), check.nextPrimitive()));
+}
+
+CheckedTrees checkTrees(const std::string& file, const DeviceScene& scene, uint rootRef)
 {
     TreeCheck check(file, scene);
     if (scene.primitives.empty() != (rootRef == REF_NONE)) {
         throw damaged(file, "nodes", "there are primitives without a tree, or a tree without any");
     }
-    if (rootRef != REF_NONE) check.walk(rootRef);
+    CheckedTrees trees;
+    if (rootRef != REF_NONE) trees.world = check.walk(rootRef);
+    check.endWorld();
+    std::set<uint> roots;
+    for (const ObjectInstance& instance : scene.instances) roots.insert(instance.rootRef);
+    if (!roots.empty()) check.statistics.depth++;
+    while (!roots.empty()) {
+        const uint root = nextRoot(file, check, roots);
+        roots.erase(root);
+        const uint64_t count = check.walk(root);
+        trees.objects[root] = count;
+        trees.inOrder.push_back(count);
+    }
     check.requireAllVisited();
-    return check.statistics;
+    trees.statistics = check.statistics;
+    return trees;
+}
+
+/// Every primitive has a number of its own below the count of its tree's: it names hits and decides
+/// ties, together with the numbers at which the instances begin.
+void checkNumbers(const std::string& file, std::span<const Primitive> primitives, size_t first)
+{
+    NumberCheck numbers(primitives.size());
+    for (size_t i = 0; i < primitives.size(); i++) {
+        if (numbers.isNew(primitives[i].number)) continue;
+        throw damaged(
+            file, "primitives",
+            fmt::format("primitive {}: its number {} is not below {} or is another one's, "
+                        "too",
+                        first + i, primitives[i].number, primitives.size()));
+    }
+}
+
+/// Returns the number of primitives that rays see.
+uint64_t checkNumbers(const std::string& file, const DeviceScene& scene, const CheckedTrees& trees)
+{
+    checkNumbers(file, scene.primitives.first(trees.world), 0);
+    uint64_t first = trees.world;
+    for (uint64_t count : trees.inOrder) {
+        checkNumbers(file, scene.primitives.subspan(first, count), first);
+        first += count;
+    }
+    uint64_t seen = trees.world;
+    for (size_t i = 0; i < scene.instances.size(); i++) {
+        if (scene.instances[i].firstNumber != seen) {
+            throw damaged(file, "instances",
+                          fmt::format("number {} counts its primitives from {}, not from {}", i,
+                                      scene.instances[i].firstNumber, seen));
+        }
+        seen += trees.objects.at(scene.instances[i].rootRef);
+        if (seen >= NO_HIT) throw damaged(file, "instances", "they show too many primitives");
+    }
+    return seen;
 }
 
 bool isSoundShape(const Primitive& primitive)
@@ -176,25 +307,6 @@ bool isSoundShape(const Primitive& primitive)
     const Box box = extentOf(primitive);
     return primitive.p1.x > 0 && isFinite(box.lo) && isFinite(box.hi);
 }
-
-/// Every primitive has a number of its own below their count: it names hits and decides ties.
-class NumberCheck {
-public:
-    explicit NumberCheck(uint64_t count) : count_(count), seen_((count + 63) / 64) {}
-
-    bool isNew(uint number)
-    {
-        if (number >= count_) return false;
-        const uint64_t bit = uint64_t{1} << (number % 64);
-        const bool fresh = (seen_[number / 64] & bit) == 0;
-        seen_[number / 64] |= bit;
-        return fresh;
-    }
-
-private:
-    uint64_t count_;
-    std::vector<uint64_t> seen_;
-};
 
 /// Zero if all components are finite, else not a number: cheaper than to ask each of them.
 float vanishing(const Primitive& p)
@@ -208,14 +320,9 @@ void checkPrimitives(const std::string& file, const DeviceScene& scene)
     auto wrong = [&](size_t i, const std::string& finding) {
         return damaged(file, "primitives", fmt::format("primitive {}: {}", i, finding));
     };
-    NumberCheck numbers(scene.primitives.size());
     for (size_t i = 0; i < scene.primitives.size(); i++) {
         const Primitive& primitive = scene.primitives[i];
         if (vanishing(primitive) != 0) throw wrong(i, "a coordinate is not finite");
-        if (!numbers.isNew(primitive.number)) {
-            throw wrong(i, fmt::format("its number {} is not below {} or is another one's, too",
-                                       primitive.number, scene.primitives.size()));
-        }
         if (primitive.material >= scene.materials.size()) {
             throw wrong(
                 i, fmt::format("material {} of {}", primitive.material, scene.materials.size()));
@@ -262,6 +369,31 @@ bool isSound(const vec4& texel)
 {
     return isFinite(texel.x) & isFinite(texel.y) & isFinite(texel.z) & (texel.x >= 0) &
            (texel.y >= 0) & (texel.z >= 0);
+}
+
+bool isFiniteBox(const vec3& lo, const vec3& hi)
+{
+    return isFinite(lo) && isFinite(hi) && lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z;
+}
+
+void checkInstances(const std::string& file, const DeviceScene& scene)
+{
+    if (scene.instances.size() > MAX_INSTANCES) {
+        throw damaged(
+            file, "instances",
+            fmt::format("there are {}, more than {}", scene.instances.size(), MAX_INSTANCES));
+    }
+    for (size_t i = 0; i < scene.instances.size(); i++) {
+        const ObjectInstance& o = scene.instances[i];
+        const bool finite = isFinite(o.toObject0) && isFinite(o.toObject1) &&
+                            isFinite(o.toObject2) && isFinite(o.toWorld0) && isFinite(o.toWorld1) &&
+                            isFinite(o.toWorld2) && isFinite(o.translation) &&
+                            isFiniteBox(o.lo, o.hi);
+        const bool painted = o.material == NO_MATERIAL || o.material < scene.materials.size();
+        if (finite && painted) continue;
+        throw damaged(file, "instances",
+                      fmt::format("number {} has a material or a number out of range", i));
+    }
 }
 
 template <class Element>
@@ -321,9 +453,11 @@ BvhStatistics checkArrays(const std::string& file, const DeviceScene& scene, uin
     checkEach(file, "materials", scene.materials);
     checkEach(file, "lights", scene.lights);
     checkEach(file, "texels", scene.probeTexels);
-    const BvhStatistics statistics = checkTree(file, scene, rootRef);
-    checkObjectStarts(file, objectStarts, scene.primitives.size());
-    return statistics;
+    checkInstances(file, scene);
+    CheckedTrees trees = checkTrees(file, scene, rootRef);
+    trees.statistics.primitivesSeen = checkNumbers(file, scene, trees);
+    checkObjectStarts(file, objectStarts, trees.statistics.primitivesSeen);
+    return trees.statistics;
 }
 
 void checkFrame(const std::string& file, const Frame& frame, uint64_t texelCount)

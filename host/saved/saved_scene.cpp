@@ -33,6 +33,7 @@ void forEachArray(SavedArrays& arrays, Action action)
     action("materials", arrays.device.materials);
     action("lights", arrays.device.lights);
     action("texels", arrays.device.probeTexels);
+    action("instances", arrays.device.instances);
     action("objectStarts", arrays.objectStarts);
 }
 
@@ -161,6 +162,7 @@ PreparedScene loadSavedScene(const fs::path& path, const SceneOptions& options)
     tree.leaves = found.leaves;
     tree.depth = found.depth;
     tree.largestLeaf = found.largestLeaf;
+    tree.primitivesSeen = found.primitivesSeen;
     prepared.scene.objectStarts.assign(arrays.objectStarts.begin(), arrays.objectStarts.end());
     const DeviceScene scene = prepared.deviceScene();
     checkFrame(file, scene.frame, scene.probeTexels.size());

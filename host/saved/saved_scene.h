@@ -18,7 +18,7 @@ void writeSavedScene(const PreparedScene& prepared, const fs::path& path);
 PreparedScene loadSavedScene(const fs::path& path, const SceneOptions& options);
 
 /// Writes scene and tree as nested JSON: groups are arrays, leaves are typed objects. Throws as
-/// writeSavedScene does.
+/// writeSavedScene does, and badInput for a scene with instances, which has many trees.
 void writeTreeJson(const PreparedScene& prepared, const fs::path& path);
 
 /// Reads what writeTreeJson writes, or anything of that form, however deep, in bounded memory

@@ -133,6 +133,11 @@ nlohmann::ordered_json describeForTree(const PreparedScene& prepared, const Devi
 void writeTreeJson(const PreparedScene& prepared, const fs::path& path)
 {
     const DeviceScene scene = prepared.deviceScene();
+    if (!scene.instances.empty()) {
+        throw badInput("{}: it has {} instances, and JSON holds one tree; save it as .sahl, or write "
+                       "the shapes out where they are placed",
+                       prepared.scene.name, scene.instances.size());
+    }
     const std::string description =
         describeForTree(prepared, scene)
             .dump(1, ' ', false, nlohmann::json::error_handler_t::replace);

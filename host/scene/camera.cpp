@@ -166,9 +166,8 @@ void placeCamera(Scene& scene, const CameraDescription& description)
 CameraDescription framePrimitives(const Scene& scene)
 {
     CameraDescription description;
-    if (scene.primitives.empty()) return description;
-    Box box;
-    for (const Primitive& primitive : scene.primitives) grow(box, extentOf(primitive));
+    if (scene.primitives.empty() && scene.instances.empty()) return description;
+    const Box box = extentOf(scene);
     description.framed = {glm::dvec3(box.lo), glm::dvec3(box.hi)};
     description.fovDeg = 35;
     description.lookAt = (description.framed->lo + description.framed->hi) * 0.5;

@@ -189,6 +189,7 @@ void appendSphere(Scene& scene, const glm::dvec3& center, double radius, uint32_
     }
     requireRoom(scene, name);
     const auto primitive = static_cast<uint32_t>(scene.primitives.size());
+    scene.objectStarts.push_back(primitive);
     const vec3 size(toFloat(radius), 0, 0);
     scene.primitives.push_back({toFloat(center), primitive, size, material, vec3(0), SHAPE_SPHERE});
 }

@@ -39,4 +39,15 @@ Image makeStudioProbe(uint32_t width, uint32_t height);
 
 constexpr uint32_t STUDIO_WIDTH = 256, STUDIO_HEIGHT = 128;
 
+/// Two interiors in the same orientation, the apse at -Z: a dim cathedral, red, with windows and lamps
+/// that are 100 times brighter than its walls; a warm basilica of stone under a dome.
+Image makeCathedralProbe(uint32_t width, uint32_t height);
+Image makeBasilicaProbe(uint32_t width, uint32_t height);
+
+constexpr uint32_t CHURCH_WIDTH = 768, CHURCH_HEIGHT = 384;
+
+/// The names that "builtin" takes in a scene file, and their pictures.
+inline constexpr std::initializer_list<const char*> BUILTIN_PROBES = {"studio", "cathedral", "basilica"};
+Image makeBuiltinProbe(const std::string& name);
+
 }  // namespace sahl

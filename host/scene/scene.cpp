@@ -42,11 +42,10 @@ Scene loadMeshScene(const fs::path& path, const SceneOptions& options)
 void warnAboutOddScene(const Scene& scene)
 {
     float largest = 0;
-    for (const Primitive& primitive : scene.primitives) {
-        const Box box = extentOf(primitive);
-        for (const vec3& p : {box.lo, box.hi}) {
+    const Box box = extentOf(scene);
+    for (const vec3& p : {box.lo, box.hi}) {
+        if (box.lo.x <= box.hi.x)
             largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-        }
     }
     if (largest > 1e9f) {
         warn(fmt::format(
@@ -95,6 +94,23 @@ void checkPictureSize(const RenderSettings& settings, const std::string& name)
             "{}: a picture of {} x {} pixels; each side must be 1 to {}, the product at most {}",
             name, settings.width, settings.height, MAX_PICTURE_SIDE, MAX_PICTURE_PIXELS);
     }
+}
+
+Box extentOf(const std::vector<Primitive>& primitives)
+{
+    Box box;
+    for (const Primitive& primitive : primitives) grow(box, extentOf(primitive));
+    return box;
+}
+
+Box extentOf(const Scene& scene)
+{
+    Box box = extentOf(scene.primitives);
+    std::vector<Box> objects;
+    for (const std::vector<Primitive>& object : scene.objects) objects.push_back(extentOf(object));
+    for (const Placement& placement : scene.instances)
+        grow(box, placedBox(placement, objects[placement.object]));
+    return box;
 }
 
 Scene loadScene(const fs::path& path, const SceneOptions& options)

@@ -1,6 +1,7 @@
 // A scene as the rest of the program sees it: plain arrays of the structs that the device reads.
 #pragma once
 
+#include "bvh/instances.h"
 #include "shared/scene_types.h"
 #include "util/files.h"
 
@@ -70,7 +71,10 @@ struct Scene {
     std::string name;  ///< for messages: the file, or "built-in ..."
     RenderSettings settings;
     std::vector<Primitive> primitives;
-    std::vector<uint32_t> objectStarts;  ///< number of the first primitive of each shape
+    std::vector<uint32_t> objectStarts;           ///< number of the first primitive of each shape
+    std::vector<std::vector<Primitive>> objects;  ///< that instances share; in spaces of their own,
+                                                  ///< objects[k][i].number == i
+    std::vector<Placement> instances;
     std::vector<TriangleNormals> triangleNormals;
     std::vector<Material> materials;
     std::vector<std::string> materialNames;  ///< of materials, for messages
@@ -88,8 +92,11 @@ struct Scene {
 /// right angle (to 1e-4), or a lens has nothing to focus on.
 Camera makeCamera(const CameraDescription& description, uint32_t width, uint32_t height);
 
-/// Gives the scene the described camera, for its picture's size. Throws as makeCamera does.
-void placeCamera(Scene& scene, const CameraDescription& description);
+/// Box of everything in the scene, instances included; empty where there is nothing.
+Box extentOf(const Scene& scene);
+
+/// Box of an object in its own space.
+Box extentOf(const std::vector<Primitive>& primitives);
 
 /// What the command line adds to or changes in a scene.
 struct SceneOptions {

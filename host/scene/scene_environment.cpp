@@ -53,8 +53,8 @@ ProbeSource readSource(const SceneReading& reading, const JsonObject& object)
         source.picture = readImage(path);
         source.name = path.string();
     } else if (object.has("builtin")) {
-        source.name = object.choice("builtin", {"studio"});
-        source.picture = makeStudioProbe(STUDIO_WIDTH, STUDIO_HEIGHT);
+        source.name = object.choice("builtin", BUILTIN_PROBES);
+        source.picture = makeBuiltinProbe(source.name);
     } else {
         const vec3 radiance = toFloat(object.vector("radiance", {}, LIGHT_RANGE));
         source.name = "radiance";

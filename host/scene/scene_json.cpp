@@ -52,6 +52,7 @@ Scene loadJsonScene(const fs::path& path, const SceneOptions& options)
     applyOptions(scene.settings, options);
     checkPictureSize(scene.settings, scene.name);
     if (const JsonNode* materials = file.find("materials")) readMaterials(reading, *materials);
+    if (const JsonNode* groups = file.find("groups")) readGroups(reading, *groups);
     if (const JsonNode* shapes = file.find("shapes")) {
         for (const JsonNode& shape : readArray(document, *shapes, "\"shapes\""))
             readShape(reading, shape);

@@ -63,6 +63,9 @@ const std::vector<std::pair<std::string, std::string>> SYNONYMS = {
     {"cutoff", "outerDeg"},
     {"strength", "scale"},
     {"bsdf", "material"},
+    {"children", "shapes"},
+    {"object", "of"},
+    {"group", "of"},
     {"ks", "specularColor"},
     {"specular", "specularColor"},
     {"ka", "ambientColor"},
@@ -76,8 +79,8 @@ const std::vector<KeySet>& sceneKeys()
 {
     static const std::vector<KeySet> keys = {
         {"scene",
-         {"$schema", "description", "camera", "film", "integrator", "materials", "shapes", "lights",
-          "environment", "background"},
+         {"$schema", "description", "camera", "film", "integrator", "materials", "groups", "shapes",
+          "lights", "environment", "background"},
          {}},
         {"camera",
          {"type", "eye", "lookAt", "up", "fovDeg", "fovAxis", "lensRadius", "focusDistance",
@@ -142,6 +145,9 @@ const std::vector<KeySet>& sceneKeys()
         {"disk",
          {"type", "name", "center", "normal", "radius", "segments", "material", "transform"},
          {"type", "radius"}},
+        {"group", {"type", "name", "shapes", "transform"}, {"type", "shapes"}},
+        {"instance", {"type", "name", "of", "material", "transform"}, {"type", "of"}},
+        {"sharedGroup", {"description", "shapes"}, {"shapes"}},
     };
     return keys;
 }

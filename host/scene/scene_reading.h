@@ -13,6 +13,11 @@
 
 namespace sahl {
 
+/// An entry of "groups": the objects that one instance of it places, its own and nested ones.
+struct SharedGroup {
+    std::vector<Placement> inside;
+};
+
 struct SceneReading {
     const JsonDocument& document;
     const SceneOptions& options;
@@ -22,6 +27,11 @@ struct SceneReading {
     std::map<std::string, uint32_t> materials;                    ///< of the scene file, by name
     std::map<fs::path, std::shared_ptr<const ObjFile>> objFiles;  ///< each file is read once
     std::map<std::string, Box> namedShapes;
+    Transform outer = {};  ///< of the groups that the shapes being read are in
+    std::map<std::string, const JsonNode*> groupNodes = {};  ///< the entries of "groups"
+    std::map<std::string, SharedGroup> groups = {};          ///< those that are read
+    std::vector<std::string> openGroups = {};                ///< those being read, outermost first
+    uint64_t placements = 0;  ///< made so far, in groups and in the world
 };
 
 /// Adds the entries of "materials" to the scene.
@@ -29,6 +39,19 @@ void readMaterials(SceneReading& reading, const JsonNode& node);
 
 /// Adds one entry of "shapes" to the scene.
 void readShape(SceneReading& reading, const JsonNode& node);
+
+/// Reads "groups", before the shapes that refer to them.
+void readGroups(SceneReading& reading, const JsonNode& node);
+
+/// Adds a shape of type "group" or "instance" to the scene.
+void readGroupShape(SceneReading& reading, const JsonObject& shape);
+void readInstance(SceneReading& reading, const JsonObject& shape);
+
+/// The map from a shape's own space to that which is being read: the world, or a shared group.
+Transform readTransform(const SceneReading& reading, const JsonObject& shape);
+
+/// Index of the material that a shape names, or of the default one.
+uint32_t readMaterialName(SceneReading& reading, const JsonObject& shape);
 
 /// Adds one entry of "lights" to the scene.
 void readLight(SceneReading& reading, const JsonNode& node);

@@ -52,7 +52,7 @@ Transform readScale(const JsonObject& object, const JsonNode& node)
 }
 
 /// p' = translate * rotate * scale * matrix * p
-Transform readTransform(const JsonObject& shape)
+Transform readOwnTransform(const JsonObject& shape)
 {
     Transform transform;
     const JsonNode* node = shape.find("transform");
@@ -75,24 +75,6 @@ Transform readTransform(const JsonObject& shape)
             fmt::format("{} cannot be inverted: it flattens space or overflows", object.what()));
     }
     return transform;
-}
-
-uint32_t readMaterialName(SceneReading& reading, const JsonObject& shape)
-{
-    if (!shape.has("material")) {
-        auto [entry, isNew] = reading.materials.emplace("", 0);
-        if (isNew) entry->second = addMaterial(reading.scene, "default", vec3(0.7f));
-        return entry->second;
-    }
-    std::string name = shape.string("material", "");
-    auto found = name.empty() ? reading.materials.end() : reading.materials.find(name);
-    if (found != reading.materials.end()) return found->second;
-    std::vector<std::string> names;
-    for (const auto& [known, index] : reading.materials) names.push_back(known);
-    std::string near = suggestion(name, names);
-    throw errorAt(reading.document, shape.at("material"),
-                  fmt::format("material \"{}\" is not defined{}", name,
-                              near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
 }
 
 std::vector<vec3> readPoints(const JsonObject& shape, const std::string& key)
@@ -165,7 +147,7 @@ void readMeshFile(SceneReading& reading, const JsonObject& shape)
     auto& obj = reading.objFiles[path];
     if (!obj) obj = std::make_shared<ObjFile>(readMeshFile(path, reading.policy));
     bool smooth = shape.boolean("smoothNormals", false) || reading.options.smoothNormals;
-    Transform transform = readTransform(shape);
+    Transform transform = readTransform(reading, shape);
     if (!shape.has("material")) {
         appendObj(reading.scene, *obj, transform, smooth, path.string());
         return;
@@ -194,12 +176,13 @@ double uniformScale(const Transform& transform)
 
 void readSphere(SceneReading& reading, const JsonObject& shape, const std::string& name)
 {
-    const Transform transform = readTransform(shape);
+    const Transform transform = readTransform(reading, shape);
     const double scale = uniformScale(transform);
     if (scale == 0) {
-        throw errorAt(shape.document(), shape.at("transform"),
-                      "a sphere stays a sphere only when scaled alike in all directions; use "
-                      "\"sphereMesh\" for other shapes");
+        const JsonNode* own = shape.find("transform");
+        throw errorAt(shape.document(), own ? *own : shape.node(),
+                      "a sphere stays a sphere only when scaled alike in all directions; use an "
+                      "\"instance\" of a group with the sphere, or a \"sphereMesh\"");
     }
     const glm::dvec3 center = mapPoint(transform, shape.vector("center", {}));
     appendSphere(reading.scene, center, scale * shape.number("radius", 1, RADIUS),
@@ -224,16 +207,24 @@ Mesh readMesh(SceneReading& reading, const JsonObject& shape, const std::string&
     return mesh;
 }
 
-/// Remembers where the primitives from `first` on are, for a camera that focuses on them.
-void nameShape(SceneReading& reading, const JsonObject& shape, size_t first)
+/// Remembers where the primitives from `firstPrimitive` and the instances from `firstInstance` on
+/// are, for a camera that focuses on them. What is inside a shared group has no one place.
+void nameShape(SceneReading& reading, const JsonObject& shape, size_t firstPrimitive,
+               size_t firstInstance)
 {
     if (!shape.has("name")) return;
     const std::string name = shape.string("name", "");
-    Box box;
-    for (size_t i = first; i < reading.scene.primitives.size(); i++)
-        grow(box, extentOf(reading.scene.primitives[i]));
     if (name.empty())
         throw errorAt(shape.document(), shape.at("name"), "the name of a shape is empty");
+    if (!reading.openGroups.empty()) return;
+    const Scene& scene = reading.scene;
+    Box box;
+    for (size_t i = firstPrimitive; i < scene.primitives.size(); i++)
+        grow(box, extentOf(scene.primitives[i]));
+    for (size_t i = firstInstance; i < scene.instances.size(); i++) {
+        const Placement& instance = scene.instances[i];
+        grow(box, placedBox(instance, extentOf(scene.objects[instance.object])));
+    }
     if (!reading.namedShapes.emplace(name, box).second) {
         throw errorAt(shape.document(), shape.at("name"),
                       fmt::format("two shapes have the name \"{}\"", name));
@@ -241,6 +232,37 @@ void nameShape(SceneReading& reading, const JsonObject& shape, size_t first)
 }
 
 }  // namespace
+
+Transform readTransform(const SceneReading& reading, const JsonObject& shape)
+{
+    const Transform whole = compose(reading.outer, readOwnTransform(shape));
+    const double volume = determinant(whole);
+    if (volume == 0 || !std::isfinite(volume)) {
+        throw errorAt(shape.document(), shape.node(),
+                      fmt::format("{}, with the groups that it is in, cannot be inverted: that "
+                                  "flattens space or overflows",
+                                  shape.what()));
+    }
+    return whole;
+}
+
+uint32_t readMaterialName(SceneReading& reading, const JsonObject& shape)
+{
+    if (!shape.has("material")) {
+        auto [entry, isNew] = reading.materials.emplace("", 0);
+        if (isNew) entry->second = addMaterial(reading.scene, "default", vec3(0.7f));
+        return entry->second;
+    }
+    std::string name = shape.string("material", "");
+    auto found = name.empty() ? reading.materials.end() : reading.materials.find(name);
+    if (found != reading.materials.end()) return found->second;
+    std::vector<std::string> names;
+    for (const auto& [known, index] : reading.materials) names.push_back(known);
+    std::string near = suggestion(name, names);
+    throw errorAt(reading.document, shape.at("material"),
+                  fmt::format("material \"{}\" is not defined{}", name,
+                              near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+}
 
 Transform readRotation(const JsonDocument& document, const JsonNode& node, const std::string& what)
 {
@@ -253,21 +275,26 @@ Transform readRotation(const JsonDocument& document, const JsonNode& node, const
 void readShape(SceneReading& reading, const JsonNode& node)
 {
     const JsonDocument& document = reading.document;
-    const std::string type =
-        readType(document, node, "a shape",
-                 {"mesh", "triangles", "teapot", "sphere", "sphereMesh", "rectangle", "disk"});
+    const std::string type = readType(document, node, "a shape",
+                                      {"mesh", "triangles", "teapot", "sphere", "sphereMesh",
+                                       "rectangle", "disk", "group", "instance"});
     const JsonObject shape(document, node, fmt::format("the shape \"{}\"", type), type);
     const std::string name = fmt::format("{}: {}", document.where(node.offset), shape.what());
-    const size_t first = reading.scene.primitives.size();
+    const size_t firstPrimitive = reading.scene.primitives.size();
+    const size_t firstInstance = reading.scene.instances.size();
     if (type == "mesh") {
         readMeshFile(reading, shape);
     } else if (type == "sphere") {
         readSphere(reading, shape, name);
+    } else if (type == "group") {
+        readGroupShape(reading, shape);
+    } else if (type == "instance") {
+        readInstance(reading, shape);
     } else {
-        appendShape(reading.scene, readMesh(reading, shape, type), readTransform(shape),
+        appendShape(reading.scene, readMesh(reading, shape, type), readTransform(reading, shape),
                     readMaterialName(reading, shape), name);
     }
-    nameShape(reading, shape, first);
+    nameShape(reading, shape, firstPrimitive, firstInstance);
 }
 
 void appendObj(Scene& scene, const ObjFile& obj, const Transform& transform, bool smooth,

@@ -2,8 +2,8 @@
 // a picture is quiet after few samples.
 #include "scene/angles.h"
 #include "scene/probe.h"
+#include "scene/soft_edges.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace sahl {
@@ -27,13 +27,6 @@ dvec3 directionTo(double azimuthDeg, double elevationDeg)
     double horizontal = cosDeg(elevationDeg);
     return {horizontal * sinDeg(azimuthDeg), sinDeg(elevationDeg),
             -horizontal * cosDeg(azimuthDeg)};
-}
-
-/// 0 below `from`, 1 above `to`, smooth between.
-double smoothStep(double from, double to, double x)
-{
-    double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-    return t * t * (3 - 2 * t);
 }
 
 double coverage(const Softbox& box, const dvec3& d)

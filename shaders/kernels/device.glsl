@@ -12,6 +12,7 @@
 layout(constant_id = SPEC_STACK_SIZE) const uint STACK_SIZE = 64u;
 layout(constant_id = SPEC_ORDER) const uint TRAVERSAL_ORDER = ORDER_NEAR_FIRST;
 layout(constant_id = SPEC_EXACT_MATH) const bool EXACT_MATH = false;
+layout(constant_id = SPEC_INSTANCES) const bool HAS_INSTANCES = false;
 
 layout(std140, set = 0, binding = BINDING_FRAME) uniform FrameBlock
 {
@@ -34,6 +35,7 @@ SCENE_BUFFER(BINDING_NORMALS, normalWords);
 SCENE_BUFFER(BINDING_MATERIALS, materialWords);
 SCENE_BUFFER(BINDING_LIGHTS, lightWords);
 SCENE_BUFFER(BINDING_PROBE, probeWords);
+layout(set = 0, binding = BINDING_INSTANCES) uniform utextureBuffer instanceWords;
 
 BvhNode loadNode(uint index)
 {
@@ -84,6 +86,25 @@ Light loadLight(uint index)
     uvec4 c = FETCH(lightWords, index * 3u + 2u);
     return Light(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), uintBitsToFloat(b.w),
                  uintBitsToFloat(c.xyz), uintBitsToFloat(c.w));
+}
+
+ObjectInstance loadInstance(uint index)
+{
+    int at = int(index) * 9;
+    uvec4 a = texelFetch(instanceWords, at);
+    uvec4 b = texelFetch(instanceWords, at + 1);
+    uvec4 c = texelFetch(instanceWords, at + 2);
+    uvec4 d = texelFetch(instanceWords, at + 3);
+    uvec4 e = texelFetch(instanceWords, at + 4);
+    uvec4 f = texelFetch(instanceWords, at + 5);
+    uvec4 g = texelFetch(instanceWords, at + 6);
+    uvec4 h = texelFetch(instanceWords, at + 7);
+    uvec4 i = texelFetch(instanceWords, at + 8);
+    return ObjectInstance(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w,
+                    uintBitsToFloat(c.xyz), c.w, uintBitsToFloat(d.xyz), d.w,
+                    uintBitsToFloat(e.xyz), e.w, uintBitsToFloat(f.xyz), f.w,
+                    uintBitsToFloat(g.xyz), g.w, uintBitsToFloat(h.xyz), h.w,
+                    uintBitsToFloat(i.xyz), i.w);
 }
 
 vec3 loadProbeTexel(uint index)

@@ -51,9 +51,12 @@ void triangleInteraction(Primitive triangle, Traversal hit, vec3 dir, INOUT(Surf
     isect.p = (q0 + q1) + q2;
     vec3 sizes = (absolute3(q0) + absolute3(q1)) + absolute3(q2);
     completeInteraction(triangleNormal(triangle, -dir), dir, sizes, isect);
-    if (triangle.shape == SHAPE_FLAT || (frame.shading & SHADING_FLAT) != 0u) return;
+}
 
-    TriangleNormals normals = loadNormals(triangle.shape);
+/// Replaces the shading normal by that between the corners' normals.
+void interpolateNormal(TriangleNormals normals, Traversal hit, INOUT(SurfaceInteraction) isect)
+{
+    float b0 = (1.0f - hit.b1) - hit.b2;
     vec3 ns = (normals.n0 * b0 + normals.n1 * hit.b1) + normals.n2 * hit.b2;
     float length2 = dot3(ns, ns);
     if (length2 > 1e-12f) {
@@ -73,10 +76,50 @@ void sphereInteraction(Primitive sphere, Traversal hit, vec3 org, vec3 dir,
     completeInteraction(normal, dir, absolute3(sphere.p0) + absolute3(arm), isect);
 }
 
-/// The interaction for the closest hit of a ray.
-SurfaceInteraction interactionAt(Traversal hit, vec3 org, vec3 dir)
+/// Takes an interaction with an instance's object to the world, but for its shading normal.
+void placeInteraction(ObjectInstance instance, INOUT(SurfaceInteraction) isect)
 {
-    Primitive shape = loadPrimitive(hit.slot);
+    vec3 inside = isect.ng;
+    vec3 normal = normalToWorld(instance, inside);
+    float inverseLength = quotient(1.0f, root(dot3(normal, normal)));
+    vec3 sizes = absolute3(isect.p);
+    isect.p = pointToWorld(instance, isect.p);
+    isect.ng = normal * inverseLength;
+    isect.ns = isect.ng;
+    isect.nsStored = isect.front ? isect.ng : -isect.ng;
+    if (instance.material != NO_MATERIAL) isect.material = instance.material;
+
+    // A ray that leaves goes through two maps before it may meet the surface again: p into the world,
+    // rounded by less than 6 times 2^-24 of `reach` and of the translation, and its origin back,
+    // rounded by less than 6 times 2^-24 of `back`; 16 are granted to each. The first counts along the
+    // normal in the world, the second along the normal in the object's space, where a step of 1 along ng
+    // is one of |normal|.
+    vec3 reach = timesRows(absolute3(instance.toWorld0), absolute3(instance.toWorld1),
+                           absolute3(instance.toWorld2), sizes);
+    vec3 back = timesRows(absolute3(instance.toObject0), absolute3(instance.toObject1),
+                          absolute3(instance.toObject2), reach);
+    float errorInside = isect.pError + 1e-6f * dot3(absolute3(inside), back);
+    float errorInWorld = 1e-6f * dot3(absolute3(isect.ng), reach + absolute3(instance.translation));
+    isect.pError = errorInside * inverseLength + errorInWorld;
+}
+
+/// Normals at the corners of an instance's triangle: those that the triangle itself would have, were it
+/// moved to the world. (Interpolated before it is moved, a normal would lean elsewhere.)
+TriangleNormals placeNormals(ObjectInstance instance, TriangleNormals normals)
+{
+    TriangleNormals placed;
+    placed.n0 = unit(normalToWorld(instance, normals.n0));
+    placed.unused0 = 0u;
+    placed.n1 = unit(normalToWorld(instance, normals.n1));
+    placed.unused1 = 0u;
+    placed.n2 = unit(normalToWorld(instance, normals.n2));
+    placed.unused2 = 0u;
+    return placed;
+}
+
+/// The interaction with a primitive by its geometry alone, in the space where it is stored.
+SurfaceInteraction geometryAt(Primitive shape, Traversal hit, vec3 org, vec3 dir)
+{
     SurfaceInteraction isect;
     isect.material = shape.material;
     if (shape.shape == SHAPE_SPHERE) {
@@ -84,6 +127,36 @@ SurfaceInteraction interactionAt(Traversal hit, vec3 org, vec3 dir)
     } else {
         triangleInteraction(shape, hit, dir, isect);
     }
+    return isect;
+}
+
+bool hasNormals(Primitive shape)
+{
+    bool facets = (frame.shading & SHADING_FLAT) != 0u;
+    return shape.shape != SHAPE_SPHERE && shape.shape != SHAPE_FLAT && !facets;
+}
+
+SurfaceInteraction interactionInInstance(Primitive shape, Traversal hit, vec3 org, vec3 dir)
+{
+    ObjectInstance instance = loadInstance(hit.instance);
+    SurfaceInteraction isect = geometryAt(shape, hit, pointToObject(instance, org),
+                                          directionToObject(instance, dir));
+    placeInteraction(instance, isect);
+    if (hasNormals(shape)) {
+        interpolateNormal(placeNormals(instance, loadNormals(shape.shape)), hit, isect);
+    }
+    return isect;
+}
+
+/// The interaction for the closest hit of a ray.
+SurfaceInteraction interactionAt(Traversal hit, vec3 org, vec3 dir)
+{
+    Primitive shape = loadPrimitive(hit.slot);
+    if (HAS_INSTANCES && hit.instance != NO_INSTANCE) {
+        return interactionInInstance(shape, hit, org, dir);
+    }
+    SurfaceInteraction isect = geometryAt(shape, hit, org, dir);
+    if (hasNormals(shape)) interpolateNormal(loadNormals(shape.shape), hit, isect);
     return isect;
 }
 

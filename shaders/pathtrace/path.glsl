@@ -82,11 +82,9 @@ void seeEnvironment(INOUT(PathState) path)
 }
 
 /// What happens at a surface: its emission, a shadow ray, the next ray. Returns the lobe sampled.
-uint shadeSurface(Traversal hit, INOUT(PathState) path)
+uint shadeSurface(SurfaceInteraction isect, Material material, INOUT(PathState) path)
 {
     tally.bounces++;
-    SurfaceInteraction isect = interactionAt(hit, path.org, path.dir);
-    Material material = loadMaterial(isect.material);
     path.L = path.L + path.beta * material.emission;
     path.phase = PHASE_ENDED;
     if (path.depth >= frame.maxBounces) return LOBE_NONE;
@@ -104,19 +102,27 @@ uint shadeSurface(Traversal hit, INOUT(PathState) path)
     return lobe;
 }
 
-/// What happens where the path's ray ended.
+/// What happens where the path's ray ended; under phong also when it is the next light's turn there.
+/// Both integrators share one place that loads the surface: some drivers run every branch.
 void shadePath(Traversal hit, INOUT(PathState) path)
 {
     uint depth = path.depth;
     uint lobe = LOBE_NONE;
+    bool arrives = path.phase == PHASE_EXTEND;
     if (hit.slot == NO_HIT) {
         seeEnvironment(path);
-    } else if (frame.integrator == INTEGRATOR_PHONG) {
-        beginPhong(hit, path);
     } else {
-        lobe = shadeSurface(hit, path);
+        SurfaceInteraction isect = interactionAt(hit, path.org, path.dir);
+        Material material = loadMaterial(isect.material);
+        if (frame.integrator == INTEGRATOR_PHONG) {
+            shadePhong(isect, material, hit, path);
+        } else {
+            lobe = shadeSurface(isect, material, path);
+        }
     }
-    path.digest += digestOf(hit.number, floatBitsToUint(hit.tHit), depth, DIGEST_HIT + lobe);
+    if (arrives) {
+        path.digest += digestOf(hit.number, floatBitsToUint(hit.tHit), depth, DIGEST_HIT + lobe);
+    }
 }
 
 /// What happens when the shadow ray's walk is over.
@@ -136,16 +142,16 @@ void finishShadow(Traversal hit, INOUT(PathState) path)
 void advancePath(INOUT(PathState) path, INOUT(Traversal) walk)
 {
     while (path.phase != PHASE_ENDED && stepsLeft != 0u) {
-        if (path.phase == PHASE_LIGHT) {
-            stepsLeft--;
-            shadeNextLight(path);
-            walk = beginPathTraversal(path);
-            continue;
-        }
         bool shadow = inShadowPhase(path);
         vec3 org = shadow ? path.shadowOrg : path.org;
         vec3 dir = shadow ? path.shadowDir : path.dir;
-        bool over = traverse(org, dir, shadow, walk);
+        bool over = path.phase == PHASE_LIGHT;
+        if (over) {
+            stepsLeft--;
+            walk = path.hit;
+        } else {
+            over = traverse(org, dir, shadow, walk);
+        }
         if (faults != 0u) break;
         if (over) {
             if (shadow) {

@@ -25,6 +25,7 @@ CONST float RAY_INFINITY = 3.0e38f;
 #include "pathtrace/camera.glsl"
 #include "pathtrace/triangle.glsl"
 #include "pathtrace/sphere.glsl"
+#include "pathtrace/instance.glsl"
 #include "pathtrace/traverse.glsl"
 #include "pathtrace/interaction.glsl"
 #include "pathtrace/fresnel.glsl"

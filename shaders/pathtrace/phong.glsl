@@ -45,26 +45,11 @@ void passLight(INOUT(PathState) path)
     path.phase = path.depth < frame.lightCount ? PHASE_LIGHT : PHASE_ENDED;
 }
 
-/// What happens where the camera ray ended: emission and ambient light; then the lights' turn comes.
-void beginPhong(Traversal hit, INOUT(PathState) path)
-{
-    tally.bounces++;
-    SurfaceInteraction isect = interactionAt(hit, path.org, path.dir);
-    Material material = loadMaterial(isect.material);
-    path.L = path.L + material.emission;
-    if (shadingHas(SHADING_AMBIENT)) {
-        path.L = path.L + flushed3(material.ambientColor * frame.ambient);
-    }
-    path.hit = hit;
-    path.phase = frame.lightCount != 0u ? PHASE_LIGHT : PHASE_ENDED;
-}
-
 /// Adds what one light gives, or sends a shadow ray whose arrival will add it.
-void shadeNextLight(INOUT(PathState) path)
+void shadeNextLight(SurfaceInteraction isect, Material material, INOUT(PathState) path)
 {
-    SurfaceInteraction isect = interactionAt(path.hit, path.org, path.dir);
     LightSample ls = illuminate(loadLight(path.depth), isect.p);
-    path.Ld = phongReflection(loadMaterial(isect.material), isect.nsStored, -path.dir, ls);
+    path.Ld = phongReflection(material, isect.nsStored, -path.dir, ls);
     if (!shadingHas(SHADING_SHADOWS)) {
         path.L = path.L + path.Ld;
         passLight(path);
@@ -73,5 +58,24 @@ void shadeNextLight(INOUT(PathState) path)
         path.phase = PHASE_SHADOW;
     } else {
         passLight(path);
+    }
+}
+
+/// What happens at a surface: when the camera ray arrives emission and ambient light, then and in
+/// every PHASE_LIGHT the next light.
+void shadePhong(SurfaceInteraction isect, Material material, Traversal hit, INOUT(PathState) path)
+{
+    if (path.phase == PHASE_EXTEND) {
+        tally.bounces++;
+        path.hit = hit;
+        path.L = path.L + material.emission;
+        if (shadingHas(SHADING_AMBIENT)) {
+            path.L = path.L + flushed3(material.ambientColor * frame.ambient);
+        }
+    }
+    if (path.depth < frame.lightCount) {
+        shadeNextLight(isect, material, path);
+    } else {
+        path.phase = PHASE_ENDED;
     }
 }

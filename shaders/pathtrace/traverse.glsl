@@ -5,6 +5,14 @@
 // Rounding is monotone, so a box that encloses another is never entered later; hence a subtree whose
 // box is entered behind the closest hit holds nothing closer. Equal distances go to the smallest
 // primitive number.
+//
+// The same holds across the two levels of a scene with instances. A primitive of an instance is hit at the
+// largest of three: its own distance, the entry into its box in the object's space, and the entry into
+// the instance's box in the world; and not at all if either box is missed. Boxes of the object's tree
+// enclose the first, boxes of the world's tree the second. The ray in the object's space is a function of
+// the ray and the instance alone, and its direction is not scaled to length 1, so that all three are
+// distances along the same ray. What decides ties is unique in the scene: the number of the instance's
+// first primitive plus that of the primitive within the object.
 
 // A ray that meets a primitive must meet its box. The test of a triangle may take the ray to be beside
 // where it is by 7 roundings (2^-24) of the farthest corner's coordinates relative to the origin, that of
@@ -57,7 +65,11 @@ Traversal beginTraversal(float tMax)
     walk.tHit = tMax;
     walk.b1 = 0.0f;
     walk.b2 = 0.0f;
+    walk.inside = NO_INSTANCE;
+    walk.instance = NO_INSTANCE;
     walk.unused0 = 0u;
+    walk.unused1 = 0u;
+    walk.unused2 = 0u;
     return walk;
 }
 
@@ -86,29 +98,74 @@ void primitiveBox(Primitive shape, OUT(vec3) lo, OUT(vec3) hi)
     hi = lesser3(hi + vec3(size * WIDENING), vec3(LARGEST_FLOAT));
 }
 
+// The ray in the space of the tree that is being walked: the world, or an instance's object.
+struct WalkRay
+{
+    vec3 org;
+    float entry;        // into the instance's box in the world, 0 in the world [m]
+    vec3 dir;           // unit in the world
+    uint firstNumber;   // of the instance's primitives, 0 in the world
+    BoxRay boxes;
+    ShearedRay sheared;
+};
+
+WalkRay makeWalkRay(vec3 org, vec3 dir, float entry, uint firstNumber)
+{
+    WalkRay ray;
+    ray.org = org;
+    ray.entry = entry;
+    ray.dir = dir;
+    ray.firstNumber = firstNumber;
+    ray.boxes = makeBoxRay(org, dir);
+    ray.sheared = shearRay(dir);
+    return ray;
+}
+
+/// The ray in the space of the object of an instance.
+///   entry  of the ray into the instance's box in the world
+WalkRay walkRayInside(ObjectInstance instance, vec3 org, vec3 dir, float entry)
+{
+    return makeWalkRay(pointToObject(instance, org), directionToObject(instance, dir), entry,
+                       instance.firstNumber);
+}
+
+/// The ray as a walk needs it that goes on where another dispatch left it.
+WalkRay walkRayOf(Traversal walk, vec3 org, vec3 dir)
+{
+    WalkRay ray = makeWalkRay(org, dir, 0.0f, 0u);
+    if (HAS_INSTANCES && walk.inside != NO_INSTANCE) {
+        ObjectInstance instance = loadInstance(walk.inside);
+        float entry;
+        bool met = intersectBox(ray.boxes, instance.lo, instance.hi, RAY_INFINITY, entry);
+        ray = walkRayInside(instance, org, dir, met ? entry : 0.0f);
+    }
+    return ray;
+}
+
 /// Tests the primitive in `slot` and keeps it in `walk` when it is the closest so far.
-void visitPrimitive(vec3 org, vec3 dir, ShearedRay sheared, BoxRay boxes, uint slot,
-                    INOUT(Traversal) walk)
+void visitPrimitive(WalkRay ray, uint slot, INOUT(Traversal) walk)
 {
     Primitive shape = loadPrimitive(slot);
     float t;
     float b1 = 0.0f;
     float b2 = 0.0f;
     if (shape.shape == SHAPE_SPHERE) {
-        if (!intersectSphere(org, dir, shape.p0, shape.p1.x, t)) return;
+        if (!intersectSphere(ray.org, ray.dir, shape.p0, shape.p1.x, t)) return;
     } else {
-        if (!intersectTriangle(org, dir, sheared, shape, t, b1, b2)) return;
+        if (!intersectTriangle(ray.org, ray.dir, ray.sheared, shape, t, b1, b2)) return;
     }
 
     vec3 lo;
     vec3 hi;
     primitiveBox(shape, lo, hi);
     float entry;
-    if (!intersectBox(boxes, lo, hi, walk.tHit, entry)) return;
-    t = max2(t, entry);
-    if (t < walk.tHit || (t == walk.tHit && shape.number < walk.number)) {
+    if (!intersectBox(ray.boxes, lo, hi, walk.tHit, entry)) return;
+    t = max2(max2(t, entry), ray.entry);
+    uint number = ray.firstNumber + shape.number;
+    if (t < walk.tHit || (t == walk.tHit && number < walk.number)) {
         walk.slot = slot;
-        walk.number = shape.number;
+        walk.number = number;
+        walk.instance = walk.inside;
         walk.tHit = t;
         walk.b1 = b1;
         walk.b2 = b2;
@@ -152,32 +209,67 @@ uint visitNode(BoxRay boxes, INOUT(Traversal) walk)
     return popRef(walk);
 }
 
+/// Visits all primitives of the leaf that the walk is at.
+void visitLeaf(WalkRay ray, INOUT(Traversal) walk)
+{
+    uint first = (walk.ref & ~REF_LEAF) >> LEAF_COUNT_BITS;
+    uint count = (walk.ref & (MAX_LEAF_SIZE - 1u)) + 1u;
+    uint i = 0u;
+    while (i < count) {
+        visitPrimitive(ray, first + i, walk);
+        i++;
+    }
+    if (i != count) faults |= FAULT_LOOP_CUT;
+    tally.primitiveTests += count;
+    stepsLeft = stepsLeft > count ? stepsLeft - count : 0u;
+}
+
+/// Takes the walk into the instance that it is at, if the ray meets its box, or out of the one that it
+/// is in; `ray` becomes the ray in the space where it goes on.
+///   org, dir  of the ray in the world
+void changeSpace(vec3 org, vec3 dir, INOUT(WalkRay) ray, INOUT(Traversal) walk)
+{
+    stepsLeft--;
+    if (walk.ref == REF_LEAVE) {
+        walk.inside = NO_INSTANCE;
+        walk.ref = popRef(walk);
+        ray = makeWalkRay(org, dir, 0.0f, 0u);
+        return;
+    }
+    uint index = walk.ref & ~REF_INSTANCE;
+    ObjectInstance instance = loadInstance(index);
+    float entry;
+    tally.boxTests++;
+    if (intersectBox(ray.boxes, instance.lo, instance.hi, walk.tHit, entry)) {
+        pushRef(REF_LEAVE, walk);
+        walk.inside = index;
+        walk.ref = instance.rootRef;
+        ray = walkRayInside(instance, org, dir, entry);
+    } else {
+        walk.ref = popRef(walk);
+    }
+}
+
 /// Walks on until the closest hit (or, for anyHit, some hit) is known or the steps are spent.
 /// Returns true when the walk is over. Every loop says whether it ended by its own condition:
 /// a driver that cuts a loop short leaves a fault behind.
 bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) walk)
 {
-    BoxRay boxes = makeBoxRay(org, dir);
-    ShearedRay sheared = shearRay(dir);
+    WalkRay ray = walkRayOf(walk, org, dir);
     while (walk.ref != REF_NONE && stepsLeft != 0u) {
-        while ((walk.ref & REF_LEAF) == 0u && stepsLeft != 0u) {
+        while ((walk.ref & REF_NOT_INNER) == 0u && stepsLeft != 0u) {
             stepsLeft--;
-            walk.ref = visitNode(boxes, walk);
+            walk.ref = visitNode(ray.boxes, walk);
         }
-        if ((walk.ref & REF_LEAF) == 0u && stepsLeft != 0u) faults |= FAULT_LOOP_CUT;
+        if ((walk.ref & REF_NOT_INNER) == 0u && stepsLeft != 0u) faults |= FAULT_LOOP_CUT;
         if (walk.ref == REF_NONE || stepsLeft == 0u || faults != 0u) break;
 
-        uint first = (walk.ref & ~REF_LEAF) >> LEAF_COUNT_BITS;
-        uint count = (walk.ref & (MAX_LEAF_SIZE - 1u)) + 1u;
-        uint i = 0u;
-        while (i < count) {
-            visitPrimitive(org, dir, sheared, boxes, first + i, walk);
-            i++;
+        if (HAS_INSTANCES && (walk.ref & REF_LEAF) == 0u) {
+            changeSpace(org, dir, ray, walk);
+        } else {
+            visitLeaf(ray, walk);
+            walk.ref = anyHit && walk.slot != NO_HIT ? REF_NONE : popRef(walk);
         }
-        if (i != count) faults |= FAULT_LOOP_CUT;
-        tally.primitiveTests += count;
-        stepsLeft = stepsLeft > count ? stepsLeft - count : 0u;
-        walk.ref = anyHit && walk.slot != NO_HIT ? REF_NONE : popRef(walk);
     }
     if (walk.ref != REF_NONE && stepsLeft != 0u) faults |= FAULT_LOOP_CUT;
     return walk.ref == REF_NONE;

@@ -13,13 +13,14 @@ SHARED_CONST uint BINDING_NORMALS = 2u;
 SHARED_CONST uint BINDING_MATERIALS = 3u;
 SHARED_CONST uint BINDING_LIGHTS = 4u;
 SHARED_CONST uint BINDING_PROBE = 5u;
-SHARED_CONST uint SCENE_BUFFER_COUNT = 6u;
+SHARED_CONST uint BINDING_INSTANCES = 6u;   // always a texel buffer: 8 storage buffers are enough then
+SHARED_CONST uint SCENE_BUFFER_COUNT = 7u;
 
-SHARED_CONST uint BINDING_FRAME = 6u;      // uniform buffer, Frame
-SHARED_CONST uint BINDING_PIXELS = 7u;     // storage buffer, PixelBlock[] of the tile
-SHARED_CONST uint BINDING_SUSPENDED = 8u;  // storage buffer, SuspendedPath[] of the tile
-SHARED_CONST uint BINDING_COUNT = 9u;      // of the path kernels
-SHARED_CONST uint BINDING_FIRST_HITS = 9u; // storage buffer, FirstHits[] of the tile: first_hits only
+SHARED_CONST uint BINDING_FRAME = 7u;       // uniform buffer, Frame
+SHARED_CONST uint BINDING_PIXELS = 8u;      // storage buffer, PixelBlock[] of the tile
+SHARED_CONST uint BINDING_SUSPENDED = 9u;   // storage buffer, SuspendedPath[] of the tile
+SHARED_CONST uint BINDING_COUNT = 10u;      // of the path kernels
+SHARED_CONST uint BINDING_FIRST_HITS = 10u; // storage buffer, FirstHits[] of the tile: first_hits only
 
 // Specialisation constants.
 SHARED_CONST uint SPEC_GROUP_WIDTH = 0u;   // workgroup shape [invocations]
@@ -27,7 +28,8 @@ SHARED_CONST uint SPEC_GROUP_HEIGHT = 1u;
 SHARED_CONST uint SPEC_STACK_SIZE = 2u;    // entries, at least the depth of the tree
 SHARED_CONST uint SPEC_ORDER = 3u;         // one of ORDER_*
 SHARED_CONST uint SPEC_EXACT_MATH = 4u;    // 1: division and root made exact (pathtrace/exact.glsl)
-SHARED_CONST uint SPEC_COUNT = 5u;
+SHARED_CONST uint SPEC_INSTANCES = 5u;     // 1: the scene has instances
+SHARED_CONST uint SPEC_COUNT = 6u;
 
 // Order in which the children of a node are visited. It changes the counters, never a hit.
 SHARED_CONST uint ORDER_NEAR_FIRST = 0u;

@@ -72,9 +72,13 @@ struct Traversal
     float tHit;        // its distance [m]; the ray's end while nothing is hit
     float b1;          // its barycentric coordinates
     float b2;
+    uint inside;       // instance that the walk is in, or NO_INSTANCE: in the world
+    uint instance;     // that the closest hit is in, or NO_INSTANCE
     uint unused0;
+    uint unused1;
+    uint unused2;
 };
-GPU_STRUCT_SIZE(Traversal, 32);
+GPU_STRUCT_SIZE(Traversal, 48);
 
 // A path between two steps.
 struct PathState
@@ -95,7 +99,7 @@ struct PathState
     float mediumEta;   // index of refraction where the path is, by the report's rule
     Traversal hit;     // INTEGRATOR_PHONG: what the camera ray met, while shadow rays walk
 };
-GPU_STRUCT_SIZE(PathState, 144);
+GPU_STRUCT_SIZE(PathState, 160);
 GPU_FIELD(PathState, Ld, 96);
 GPU_FIELD(PathState, hit, 112);
 
@@ -113,8 +117,8 @@ struct SuspendedPath
     uint unused2;
     uint stack[MAX_SUSPENDED_STACK];
 };
-GPU_STRUCT_SIZE(SuspendedPath, 208 + 4 * 64);
-GPU_FIELD(SuspendedPath, stack, 208);
+GPU_STRUCT_SIZE(SuspendedPath, 240 + 4 * 64);
+GPU_FIELD(SuspendedPath, stack, 240);
 
 // One dispatch: up to one sample more for every pixel of a tile. Push constants.
 struct Dispatch

@@ -10,8 +10,14 @@ SHARED_BEGIN
 // A reference to something in the tree is one uint:
 //   inner node   its index in `nodes`
 //   leaf         REF_LEAF | first primitive << 3 | (primitive count - 1)
-//   nothing      REF_NONE (it has the leaf bit, so that "is an inner node" is one test)
+//   instance     REF_INSTANCE | its index in `instances`
+//   way back     REF_LEAVE, only on the stack: the walk leaves the instance that it is in
+//   nothing      REF_NONE
+// All but an inner node have a bit of REF_NOT_INNER, so that "is an inner node" is one test.
 SHARED_CONST uint REF_LEAF = 0x80000000u;
+SHARED_CONST uint REF_INSTANCE = 0x40000000u;
+SHARED_CONST uint REF_LEAVE = 0x7fffffffu;
+SHARED_CONST uint REF_NOT_INNER = 0xc0000000u;
 SHARED_CONST uint REF_NONE = 0xffffffffu;
 SHARED_CONST uint LEAF_COUNT_BITS = 3u;
 SHARED_CONST uint MAX_LEAF_SIZE = 8u;
@@ -20,6 +26,9 @@ SHARED_CONST uint MAX_STACK_SIZE = 64u;         // bound of the tree's depth
 SHARED_CONST uint SHAPE_FLAT = 0xffffffffu;    // a triangle without normals of its own
 SHARED_CONST uint SHAPE_SPHERE = 0xfffffffeu;
 SHARED_CONST uint NO_HIT = 0xffffffffu;
+SHARED_CONST uint NO_INSTANCE = 0xffffffffu;
+SHARED_CONST uint NO_MATERIAL = 0xffffffffu;
+SHARED_CONST uint MAX_INSTANCES = 1048576u;  // 2^20
 
 // An inner node holds the boxes of its two children: one read serves two box tests.
 struct BvhNode
@@ -40,8 +49,9 @@ GPU_FIELD(BvhNode, hi1, 48);
 // A triangle or a sphere. Stored in the order of the leaves.
 struct Primitive
 {
-    vec3 p0;        // triangle: corners, world space [m]; counter-clockwise seen from the front
-    uint number;    // of the primitive in the scene as read: decides ties, names hits
+    vec3 p0;        // triangle: corners [m]; counter-clockwise seen from the front; in world space,
+                    // those of an instanced object in its own
+    uint number;    // of the primitive in the scene (object) as read: decides ties, names hits
     vec3 p1;        // sphere: centre in p0, radius in p1.x [m]
     uint material;  // index in `materials`
     vec3 p2;
@@ -62,6 +72,36 @@ struct TriangleNormals
 };
 GPU_STRUCT_SIZE(TriangleNormals, 48);
 GPU_FIELD(TriangleNormals, n2, 32);
+
+// An object placed in the world: a tree of its own, in `nodes` and `primitives` like the world's, whose
+// primitives are numbered from 0. Several instances may share one object. A point q of the object is at
+//   p = toWorld q + translation        q = toObject (p - translation)
+// in the world; the two matrices, of which the rows are stored, are inverse up to rounding.
+struct ObjectInstance
+{
+    vec3 toObject0;
+    uint rootRef;       // of the object's tree
+    vec3 toObject1;
+    uint firstNumber;   // added to the numbers of the object's primitives: they are unique in the scene
+    vec3 toObject2;
+    uint material;      // of all its primitives, or NO_MATERIAL: each has its own
+    vec3 toWorld0;
+    uint unused0;
+    vec3 toWorld1;
+    uint unused1;
+    vec3 toWorld2;
+    uint unused2;
+    vec3 translation;   // [m]
+    uint unused3;
+    vec3 lo;            // box that a ray must meet to meet the object, world space [m]: that of the
+    uint unused4;       // object, widened by what the ray's way into the object's space may be rounded
+    vec3 hi;
+    uint unused5;
+};
+GPU_STRUCT_SIZE(ObjectInstance, 144);
+GPU_FIELD(ObjectInstance, firstNumber, 28);
+GPU_FIELD(ObjectInstance, translation, 96);
+GPU_FIELD(ObjectInstance, hi, 128);
 
 SHARED_CONST uint MATERIAL_LAMBERT = 0u;     // diffuse, baseColor
 SHARED_CONST uint MATERIAL_MIRROR = 1u;      // reflects baseColor of what arrives

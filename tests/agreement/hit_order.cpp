@@ -29,10 +29,9 @@ Hit bitsOf(const Traversal& walk)
 Traversal bruteForce(reference::Kernel<>& kernel, const Ray& ray)
 {
     Traversal walk = kernel.beginTraversal(reference::Kernel<>::RAY_INFINITY);
-    const auto boxes = kernel.makeBoxRay(ray.org, ray.dir);
-    const auto sheared = kernel.shearRay(ray.dir);
+    const auto inWorld = kernel.makeWalkRay(ray.org, ray.dir, 0, 0);
     for (uint slot = 0; slot < kernel.primitives.size(); slot++)
-        kernel.visitPrimitive(ray.org, ray.dir, sheared, boxes, slot, walk);
+        kernel.visitPrimitive(inWorld, slot, walk);
     return walk;
 }
 

@@ -130,6 +130,7 @@ reference::Kernel<Order> kernelFor(const Bvh& bvh)
     reference::Kernel<Order> kernel = {};
     kernel.nodes = bvh.nodes;
     kernel.primitives = bvh.primitives;
+    kernel.instances = bvh.instances;
     kernel.frame.rootRef = bvh.rootRef;
     return kernel;
 }

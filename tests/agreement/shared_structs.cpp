@@ -32,7 +32,8 @@ TEST_F(SharedStructs, areReadBackFieldByField)
         numbered<BvhNode>(next, expected),    numbered<Primitive>(next, expected),
         numbered<TriangleNormals>(next, expected), numbered<Material>(next, expected),
         numbered<Light>(next, expected),      numbered<Frame>(next, expected),
-        numbered<PixelBlock>(next, expected), numbered<SuspendedPath>(next, expected)};
+        numbered<PixelBlock>(next, expected), numbered<SuspendedPath>(next, expected),
+        numbered<ObjectInstance>(next, expected)};
     std::vector<std::byte> job = numbered<Dispatch>(next, expected);
     job.erase(job.begin(), job.begin() + sizeof(Dispatch));
 

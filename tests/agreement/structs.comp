@@ -14,7 +14,8 @@ layout(std430, binding = 4) readonly buffer Lights { Light lights[]; };
 layout(std430, binding = 5) readonly buffer Frames { Frame frames[]; };
 layout(std430, binding = 6) readonly buffer Blocks { PixelBlock blocks[]; };
 layout(std430, binding = 7) readonly buffer Paths { SuspendedPath paths[]; };
-layout(std430, binding = 8) writeonly buffer Words { uint words[]; };
+layout(std430, binding = 8) readonly buffer Instances { ObjectInstance instances[]; };
+layout(std430, binding = 9) writeonly buffer Words { uint words[]; };
 layout(push_constant) uniform JobBlock { Dispatch job; };
 
 uint count = 0u;
@@ -36,7 +37,8 @@ void put(Probe p)
 
 void put(Traversal w)
 {
-    put(w.ref); put(w.stackSize); put(w.slot); put(w.number); put(w.tHit); put(w.b1); put(w.b2); put(w.unused0);
+    put(w.ref); put(w.stackSize); put(w.slot); put(w.number); put(w.tHit); put(w.b1); put(w.b2);
+    put(w.inside); put(w.instance); put(w.unused0); put(w.unused1); put(w.unused2);
 }
 
 void main()
@@ -75,6 +77,10 @@ void main()
     put(paths[1].indirectRays); put(paths[1].shadowRays); put(paths[1].boxTests); put(paths[1].primitiveTests);
     put(paths[1].bounces); put(paths[1].unused0); put(paths[1].unused1); put(paths[1].unused2);
     for (uint i = 0u; i < MAX_SUSPENDED_STACK; i++) put(paths[1].stack[i]);
+    ObjectInstance o = instances[1];
+    put(o.toObject0); put(o.rootRef); put(o.toObject1); put(o.firstNumber); put(o.toObject2); put(o.material);
+    put(o.toWorld0); put(o.unused0); put(o.toWorld1); put(o.unused1); put(o.toWorld2); put(o.unused2);
+    put(o.translation); put(o.unused3); put(o.lo); put(o.unused4); put(o.hi); put(o.unused5);
     put(job.tileX); put(job.tileY); put(job.tileWidth); put(job.tileHeight);
     put(job.firstSample); put(job.sampleCount); put(job.stepBudget); put(job.unused0);
 }

@@ -82,7 +82,8 @@ TEST_P(LongVerifySmallScenes, haveNoDifferingBitInExactMath)
 
 constexpr const char* SMALL_SCENES[] = {
     "mirror", "dielectric",  "conductor",  "report_material", "sphere",  "lens", "orthographic",
-    "spot",   "directional", "background", "emission",        "angular", "phong"};
+    "spot",   "directional", "background", "emission",        "angular", "phong",
+    "instances"};
 
 const auto nameOfScene = [](const auto& tested) { return std::string(tested.param); };
 

@@ -54,6 +54,17 @@ TEST_F(DeviceProgram, indexUuidAndName_chooseTheSameDevice)
     }
 }
 
+TEST_F(DeviceProgram, windowOfThePicture_equalsTheCpus)
+{
+    auto windowOn = [&](const char* device) {
+        const Arguments arguments = {"render", "ball.json", "--device", device,  "--spp", "10",
+                                     "--crop", "5,3,7,6",   "-o",       "a.pfm"};
+        EXPECT_EQ(sahl(arguments, here()).exitCode, 0);
+        return textOf(folder / "a.pfm");
+    };
+    EXPECT_EQ(windowOn("0"), windowOn("cpu"));
+}
+
 TEST_F(DeviceProgram, pictureAndCounters_equalTheCpus)
 {
     auto renderOn = [&](const std::string& device) {

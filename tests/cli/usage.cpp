@@ -21,14 +21,14 @@ TEST(Usage, noArguments_showAShortUsageOnStderr)
     EXPECT_EQ(result.exitCode, 2);
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(result.err,
-              "usage: sahl render|tonemap|verify|bvh|devices [options]\ntry: sahl --help\n");
+              "usage: sahl render|tonemap|verify|bvh|devices|bench [options]\ntry: sahl --help\n");
 }
 
 TEST(Usage, helpAndVersion_goToStdout)
 {
     for (const Arguments& arguments :
          {Arguments{"--help"}, {"-h"}, {"render", "--help"}, {"tonemap", "-h"}, {"verify", "-h"},
-          {"devices", "-h"}}) {
+          {"devices", "-h"}, {"bench", "-h"}}) {
         RunResult result = sahl(arguments);
         EXPECT_EQ(result.exitCode, 0);
         EXPECT_HAS(result.out, "Usage: sahl ");
@@ -94,13 +94,13 @@ TEST(Usage, unknownOption_suggestsTheNearest)
 TEST(Usage, unknownCommand_suggestsTheNearest)
 {
     expectUsageError({"rendr", "x.json"}, "unknown command 'rendr'; did you mean render?");
-    expectUsageError({"sing"}, "unknown command 'sing'; choose render, tonemap, verify or devices");
-    expectUsageError({"--"}, "a command is missing; choose render, tonemap, verify or devices");
+    expectUsageError({"sing"}, "unknown command 'sing'; choose render, tonemap, verify, devices or bench");
+    expectUsageError({"--"}, "a command is missing; choose render, tonemap, verify, devices or bench");
 }
 
 TEST(Usage, missingAndExtraWords_areNamed)
 {
-    expectUsageError({"render"}, "'sahl render' needs a scene: a .json or .obj file");
+    expectUsageError({"render"}, "'sahl render' needs a scene: a .json, .obj or .ply file");
     expectUsageError({"tonemap"}, "'sahl tonemap' needs a picture: an .exr, .hdr or .pfm file");
     expectUsageError({"render", "x.json", "--spp"}, "--spp needs a value: N");
     expectUsageError({"render", "x.json", "-o"}, "--output needs a value: FILE");

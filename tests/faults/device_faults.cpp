@@ -191,7 +191,7 @@ TEST_F(DeviceFaults, deviceBelowOurNeeds_isListedAsUnusableWithTheReason)
     EXPECT_NE(reasonOf([](VkPhysicalDeviceProperties& p) {
                   p.limits.maxPerStageDescriptorStorageBuffers = 4;
                   p.limits.maxPerStageDescriptorSampledImages = 4;
-              }).find("4 texel buffers a shader, needs 6, and 4 storage buffers a shader, needs 8"),
+              }).find("4 texel buffers a shader, needs 7, and 4 storage buffers a shader, needs 8"),
               std::string::npos);
 }
 

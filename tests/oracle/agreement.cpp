@@ -25,6 +25,7 @@ const std::vector<Term>& allTerms()
         std::vector<Term> all = materialTerms();
         for (const Term& term : lightTerms()) all.push_back(term);
         for (const Term& term : cameraTerms()) all.push_back(term);
+        for (const Term& term : instanceTerms()) all.push_back(term);
         return all;
     }();
     return terms;

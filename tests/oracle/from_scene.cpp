@@ -1,6 +1,7 @@
 #include "oracle/from_scene.h"
 
 #include <stdexcept>
+#include <utility>
 
 namespace sahl::testing {
 
@@ -124,6 +125,51 @@ void addPrimitive(textbook::World& world, const Primitive& primitive,
     world.triangles.push_back(triangle);
 }
 
+textbook::Vec placed(const Placement& placement, const textbook::Vec& q)
+{
+    const glm::dvec3 p = placement.linear * glm::dvec3(q.x, q.y, q.z) + placement.translation;
+    return {p.x, p.y, p.z};
+}
+
+textbook::Vec placedNormal(const Placement& placement, const textbook::Vec& n)
+{
+    const glm::dmat3 map = glm::transpose(glm::inverse(placement.linear));
+    const glm::dvec3 m = glm::normalize(map * glm::dvec3(n.x, n.y, n.z));
+    return {m.x, m.y, m.z};
+}
+
+/// Every primitive of the object as it stands in the world, in double precision.
+void addInstance(textbook::World& world, const Placement& placement, const Scene& scene)
+{
+    textbook::World object;
+    for (const Primitive& primitive : scene.objects.at(placement.object)) {
+        addPrimitive(object, primitive, scene.triangleNormals);
+    }
+    const bool repainted = placement.material != NO_MATERIAL;
+    const bool mirrors = glm::determinant(placement.linear) < 0;
+    for (textbook::Triangle triangle : object.triangles) {
+        for (textbook::Vec& corner : triangle.corner) corner = placed(placement, corner);
+        if (triangle.smooth) {
+            for (textbook::Vec& normal : triangle.normal) normal = placedNormal(placement, normal);
+        }
+        if (mirrors) {
+            std::swap(triangle.corner[1], triangle.corner[2]);
+            std::swap(triangle.normal[1], triangle.normal[2]);
+        }
+        if (repainted) triangle.material = placement.material;
+        world.triangles.push_back(triangle);
+    }
+    for (textbook::Sphere sphere : object.spheres) {
+        if (repainted) sphere.material = placement.material;
+        const glm::dmat3& m = placement.linear;
+        world.placedSpheres.push_back({sphere,
+                                       {m[0].x, m[0].y, m[0].z},
+                                       {m[1].x, m[1].y, m[1].z},
+                                       {m[2].x, m[2].y, m[2].z},
+                                       placed(placement, {})});
+    }
+}
+
 }  // namespace
 
 textbook::World textbookWorld(const Scene& scene)
@@ -132,6 +178,7 @@ textbook::World textbookWorld(const Scene& scene)
     for (const Primitive& primitive : scene.primitives) {
         addPrimitive(world, primitive, scene.triangleNormals);
     }
+    for (const Placement& placement : scene.instances) addInstance(world, placement, scene);
     for (const Material& material : scene.materials)
         world.materials.push_back(materialOf(material));
     for (const Light& light : scene.lights) world.lights.push_back(lightOf(light));

@@ -26,6 +26,7 @@ inline void PrintTo(const Term& term, std::ostream* out)
 std::vector<Term> materialTerms();
 std::vector<Term> lightTerms();   ///< lamps, probes
 std::vector<Term> cameraTerms();  ///< cameras, shapes
+std::vector<Term> instanceTerms();
 std::vector<Term> phongTerms();   ///< of the phong integrator, without noise
 
 }  // namespace sahl::testing

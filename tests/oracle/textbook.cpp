@@ -48,6 +48,39 @@ void intersect(const Ray& ray, const Sphere& sphere, Hit& hit)
     }
 }
 
+/// Solves x a + y b + z c = v by Cramer's rule for (a, b, c).
+Vec coordinates(Vec x, Vec y, Vec z, Vec v)
+{
+    double volume = dot(x, cross(y, z));
+    return {dot(v, cross(y, z)) / volume, dot(x, cross(v, z)) / volume,
+            dot(x, cross(y, v)) / volume};
+}
+
+/// The sphere's equation for the ray as it is before the map; the map keeps t. A normal n becomes
+/// the m with m . (M q) = n . q for all q, whose components are the coordinates' transposed.
+void intersect(const Ray& ray, const PlacedSphere& placed, Hit& hit)
+{
+    Vec from = coordinates(placed.x, placed.y, placed.z, ray.origin - placed.origin);
+    Vec way = coordinates(placed.x, placed.y, placed.z, ray.direction);
+    Vec arm = from - placed.sphere.centre;
+    double a = dot(way, way);
+    double p = dot(arm, way);
+    double q = dot(arm, arm) - placed.sphere.radius * placed.sphere.radius;
+    double discriminant = p * p - a * q;
+    if (discriminant < 0) return;
+    for (double t : {(-p - std::sqrt(discriminant)) / a, (-p + std::sqrt(discriminant)) / a}) {
+        if (t < TINY || t > hit.t) continue;
+        Vec n = arm + way * t;
+        Vec m = cross(placed.y, placed.z) * n.x + cross(placed.z, placed.x) * n.y +
+                cross(placed.x, placed.y) * n.z;
+        bool mirrors = dot(placed.x, cross(placed.y, placed.z)) < 0;
+        hit.t = t;
+        hit.front = normalized(mirrors ? -m : m);
+        hit.shading = hit.front;
+        hit.material = placed.sphere.material;
+    }
+}
+
 }  // namespace
 
 Hit closestHit(const World& world, const Ray& ray)
@@ -55,6 +88,7 @@ Hit closestHit(const World& world, const Ray& ray)
     Hit hit;
     for (const Triangle& triangle : world.triangles) intersect(ray, triangle, hit);
     for (const Sphere& sphere : world.spheres) intersect(ray, sphere, hit);
+    for (const PlacedSphere& sphere : world.placedSpheres) intersect(ray, sphere, hit);
     return hit;
 }
 

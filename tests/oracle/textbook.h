@@ -41,6 +41,13 @@ struct Sphere {
     size_t material = 0;
 };
 
+/// A sphere after an affine map p = x q.x + y q.y + z q.z + origin of its points q: an ellipsoid.
+struct PlacedSphere {
+    Sphere sphere;
+    Vec x, y, z;
+    Vec origin;
+};
+
 struct Light {
     enum Kind { point, spot, directional };
     Kind kind = point;
@@ -73,6 +80,7 @@ struct Camera {
 struct World {
     std::vector<Triangle> triangles;
     std::vector<Sphere> spheres;
+    std::vector<PlacedSphere> placedSpheres;
     std::vector<Material> materials;
     std::vector<Light> lights;
     Probe environment;  ///< lights the scene

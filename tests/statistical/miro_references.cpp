@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <utility>
 
 namespace sahl::testing {
 namespace {
@@ -117,6 +118,80 @@ TEST_P(MiroReferences, areMetWithinOneByteOnAlmostAllPixels)
     double share = double(near) / (SIZE * SIZE);
     RecordProperty("share", std::to_string(share));
     EXPECT_GE(share, 0.999);
+}
+
+glm::dmat3 linearOf(const nlohmann::json& rows)
+{
+    glm::dmat3 linear;
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++) linear[column][row] = rows[row][column];
+    }
+    return linear;
+}
+
+/// miro's 20 bunnies as a scene of instances, or of that many meshes.
+PreparedScene bunnies(const nlohmann::json& numbers, bool instances)
+{
+    Scene scene = miroScene(numbers, assetFolder() / "meshes/miro/bunny_smooth.obj.gz");
+    // The floor is the last triangle; the bunny before it becomes an object of its own.
+    const Primitive floor = scene.primitives.back();
+    scene.primitives.pop_back();
+    std::vector<Primitive> bunny = std::exchange(scene.primitives, {floor});
+    const std::vector<TriangleNormals> normals = scene.triangleNormals;
+    for (const auto& rows : numbers["instances_row_major_4x4_column_vectors"]) {
+        Placement placement;
+        placement.linear = linearOf(rows);
+        for (int axis = 0; axis < 3; axis++) placement.translation[axis] = rows[axis][3];
+        if (instances) {
+            scene.instances.push_back(placement);
+            continue;
+        }
+        Mesh mesh;
+        for (const Primitive& t : bunny) {
+            const auto corner = static_cast<uint32_t>(mesh.positions.size());
+            mesh.positions.insert(mesh.positions.end(), {t.p0, t.p1, t.p2});
+            const TriangleNormals& n = normals.at(t.shape);
+            mesh.normals.insert(mesh.normals.end(), {n.n0, n.n1, n.n2});
+            const std::array<uint32_t, 3> corners = {corner, corner + 1, corner + 2};
+            mesh.triangles.push_back({corners, corners, 0});
+        }
+        appendShape(scene, mesh, {placement.linear, placement.translation}, 0, "bunny");
+    }
+    for (size_t i = 0; i < scene.primitives.size(); i++)
+        scene.primitives[i].number = static_cast<uint>(i);
+    if (instances) scene.objects = {std::move(bunny)};
+    return prepareScene(std::move(scene), BvhBuild::automatic, 2);
+}
+
+/// 20 bunnies through instances look as if each were a mesh of its own, at the memory of one.
+TEST(MiroBunnies, areTheSamePictureAsInstancesAndAsMeshes)
+{
+    SAHL_REQUIRE_ASSET("scenes/miro_benchmark.json");
+    SAHL_REQUIRE_ASSET("meshes/miro/bunny_smooth.obj.gz");
+    std::ifstream file(assetFolder() / "scenes/miro_benchmark.json");
+    const auto numbers = nlohmann::json::parse(file)["bunny20"];
+    const auto device = makeCpuDevice({});
+    Image pictures[2];
+    uint64_t bytes[2];
+    for (int i = 0; i < 2; i++) {
+        const PreparedScene scene = bunnies(numbers, i == 0);
+        EXPECT_EQ(scene.bvh.statistics.primitivesSeen, 1'389'021u);
+        EXPECT_EQ(scene.bvh.instances.size(), i == 0 ? 20u : 0u);
+        pictures[i] = meanImage(renderFilm(*device, scene, 0, 1));
+        bytes[i] = device->statistics().sceneBytes;
+    }
+    size_t differing = 0;
+    for (size_t pixel = 0; pixel < SIZE * SIZE; pixel++) {
+        bool near = true;
+        for (size_t k = 3 * pixel; k < 3 * pixel + 3; k++) {
+            const int one = byteOf(pictures[0].rgb[k]), other = byteOf(pictures[1].rgb[k]);
+            near = near && std::abs(one - other) <= 1;
+        }
+        differing += !near;
+    }
+    RecordProperty("differing", std::to_string(differing));
+    EXPECT_LE(double(differing), 0.001 * SIZE * SIZE);
+    EXPECT_LT(bytes[0] * 15, bytes[1]) << "instances do not share what they show";
 }
 
 INSTANTIATE_TEST_SUITE_P(

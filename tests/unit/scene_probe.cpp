@@ -2,6 +2,7 @@
 #include "scene/probe.h"
 #include "support/scene_files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -161,6 +162,32 @@ TEST(Studio, keyLightComesFromTheUpperLeftBehindTheCamera)
     const Image studio = makeStudioProbe(STUDIO_WIDTH, STUDIO_HEIGHT);
     EXPECT_GT(texel(studio, 46, 31).y, 2);
     EXPECT_LT(texel(studio, 128, 64).y, 1);
+}
+
+TEST(Churches, areFiniteLightEverywhereAndCloseAtTheSeam)
+{
+    for (const char* name : {"cathedral", "basilica"}) {
+        const Image church = makeBuiltinProbe(name);
+        ASSERT_EQ(church.rgb.size(), size_t{3} * CHURCH_WIDTH * CHURCH_HEIGHT);
+        for (float value : church.rgb) {
+            ASSERT_GT(value, 0) << name;
+            ASSERT_LT(value, 100) << name;
+        }
+        for (uint32_t y = 0; y < church.height; y++) {
+            const vec3 left = texel(church, 0, y), right = texel(church, church.width - 1, y);
+            EXPECT_LT(glm::length(left - right), 0.2f * glm::length(left + right)) << name << " row " << y;
+        }
+    }
+}
+
+TEST(Churches, haveWindowsManyTimesBrighterThanTheirWalls)
+{
+    for (const char* name : {"cathedral", "basilica"}) {
+        std::vector<float> values = makeBuiltinProbe(name).rgb;
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        EXPECT_GT(*std::max_element(values.begin(), values.end()), 20 * *middle) << name;
+    }
 }
 
 }  // namespace
