@@ -369,6 +369,60 @@ TEST_F(SavedFaults, indicesOutOfRangeAreRefused)
                     "a probe of 4294967295 x 4294967295");
 }
 
+/// The same with a scene of instances.
+class SavedInstanceFaults : public SavedFaults {
+protected:
+    SavedInstanceFaults()
+    {
+        scene = prepareScene(loadScene(instancesScene(), {}), BvhBuild::sweep, 2);
+        writeSavedScene(scene, path);
+        whole = readFile(path);
+    }
+
+    std::string errorOfInstance(size_t index, const std::function<void(ObjectInstance&)>& alter)
+    {
+        return errorOfElement<ObjectInstance>("instances", index, alter);
+    }
+
+    PreparedScene scene;
+};
+
+TEST_F(SavedInstanceFaults, instancesThatPointAnywhereElseAreRefused)
+{
+    ASSERT_EQ(errorOfBytes(whole), "");
+    for (const uint root : {0u, 1u, 0x3fffffffu, REF_INSTANCE, REF_LEAVE, REF_LEAF, REF_NONE}) {
+        EXPECT_CONTAINS(errorOfInstance(1, [&](ObjectInstance& o) { o.rootRef = root; }),
+                        "x.sahl: ")
+            << root;
+    }
+    EXPECT_CONTAINS(errorOfInstance(1, [](ObjectInstance& o) { o.material = 99; }),
+                    "section 'instances': number 1 has a material");
+    EXPECT_CONTAINS(errorOfInstance(0, [](ObjectInstance& o) { o.firstNumber++; }),
+                    "number 0 counts its primitives from");
+    EXPECT_CONTAINS(errorOfInstance(2, [](ObjectInstance& o) { o.toObject1.y = std::nanf(""); }),
+                    "section 'instances': number 2");
+    EXPECT_CONTAINS(errorOfInstance(2, [](ObjectInstance& o) { std::swap(o.lo, o.hi); }),
+                    "section 'instances': number 2");
+    EXPECT_CONTAINS(errorOfInstance(2, [](ObjectInstance& o) { o.hi.x += 1; }), "its box is not");
+}
+
+TEST_F(SavedInstanceFaults, instancesInsideInstancesAreRefused)
+{
+    // A walk knows one way back only.
+    const DeviceScene arrays = scene.deviceScene();
+    const auto placed =
+        std::find_if(arrays.instances.begin(), arrays.instances.end(),
+                     [](const ObjectInstance& o) { return o.rootRef < REF_INSTANCE; });
+    ASSERT_NE(placed, arrays.instances.end());
+    EXPECT_CONTAINS(errorOfElement<BvhNode>("nodes", placed->rootRef,
+                                            [](BvhNode& n) { n.ref0 = REF_INSTANCE; }),
+                    "an instance inside the object of another");
+    EXPECT_CONTAINS(errorOfElement<BvhNode>("nodes", 0, [](BvhNode& n) { n.ref0 = REF_INSTANCE; }),
+                    "x.sahl: ");
+    EXPECT_CONTAINS(errorOfElement<BvhNode>("nodes", 0, [](BvhNode& n) { n.ref0 = REF_LEAVE; }),
+                    "instance 1073741823; there are");
+}
+
 TEST_F(SavedFaults, numbersThatAreNoneAreRefused)
 {
     const float nan = std::nanf(""), infinity = std::numeric_limits<float>::infinity();
@@ -413,34 +467,51 @@ TEST_F(SavedFaults, descriptionsThatDoNotFitAreRefused)
                     "section 'scene': it has 17000000 bytes");
 }
 
-TEST_F(SavedFaults, hostileContentsUnderRightHashesAreRefusedOrRender)
+/// Loads files with a few words of one section replaced, hashes right; renders what is not refused.
+/// Returns how many were rendered.
+int renderHostileVariants(const fs::path& path, uint64_t seed, int count)
 {
-    Random random(984);
-    writeFileAtomically(path, whole);
+    Random random(seed);
     const std::vector<OwnSection> good = sectionsOf(path);
     const std::unique_ptr<Device> device = makeCpuDevice({});
     int rendered = 0;
-    for (int i = 0; i < 800; i++) {
+    for (int i = 0; i < count; i++) {
         std::vector<OwnSection> sections = good;
-        OwnSection& section = sections[1 + random.below(static_cast<uint>(sections.size() - 1))];
-        const uint words = static_cast<uint>(section.bytes.size() / 4);
-        for (uint k = 0; k <= random.below(2); k++) {
+        OwnSection* section = nullptr;
+        while (section == nullptr || section->name == "scene" || section->bytes.empty()) {
+            section = &sections[random.below(static_cast<uint>(sections.size()))];
+        }
+        const uint words = static_cast<uint>(section->bytes.size() / 4);
+        for (uint k = random.below(2) + 1; k > 0; k--) {
             const uint32_t hard[] = {0,          1,
                                      0x7f800000, 0x7fc00000,
                                      0xffffffff, 0x80000000,
                                      0x7f7fffff, 0x00000001,
                                      0x3f800000, static_cast<uint32_t>(random.bits())};
-            section.set<uint32_t>(random.below(words), hard[random.below(std::size(hard))]);
+            section->set<uint32_t>(random.below(words), hard[random.below(std::size(hard))]);
         }
         writeSections(path, sections);
-        SceneOptions options = smallPicture(6, 4, 2);
         PreparedScene prepared;
+        const SceneOptions options = smallPicture(6, 4, 2);
         if (!badInputOf([&] { prepared = loadSavedScene(path, options); }).empty()) continue;
         renderFilm(*device, prepared);
         rendered++;
     }
-    EXPECT_GT(rendered, 40);  // else nothing was shown about what passes
-    EXPECT_LT(rendered, 500);
+    return rendered;
+}
+
+TEST_F(SavedFaults, hostileContentsUnderRightHashesAreRefusedOrRender)
+{
+    const int rendered = renderHostileVariants(path, 984, 600);
+    EXPECT_GT(rendered, 20);  // else nothing was shown about what passes
+    EXPECT_LT(rendered, 400);
+}
+
+TEST_F(SavedInstanceFaults, hostileContentsUnderRightHashesAreRefusedOrRender)
+{
+    const int rendered = renderHostileVariants(path, 985, 400);
+    EXPECT_GT(rendered, 20);
+    EXPECT_LT(rendered, 300);
 }
 
 }  // namespace
