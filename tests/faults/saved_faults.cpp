@@ -225,7 +225,7 @@ TEST_F(SavedFaults, treesThatAreNoneAreRefused)
                         OwnSection& primitives = sectionNamed(sections, "primitives");
                         primitives.bytes.resize(primitives.bytes.size() - sizeof(Primitive));
                     }),
-                    "section 'primitives'");
+                    "they should begin at");
 }
 
 TEST_F(SavedFaults, aTreeDeeperThanTheStackIsRefused)
