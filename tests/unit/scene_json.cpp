@@ -270,7 +270,7 @@ TEST(JsonScene, refusesAdaptiveSamplingWhoseMinimumIsAboveItsMaximum)
 {
     EXPECT_CONTAINS(
         errorOfJson(R"({ "integrator": { "adaptive": { "rule": "report", "maxSamples": 10 } } })"),
-        "scene.json:1:33: minSamples is 20, above maxSamples, which is 10");
+        "scene.json:1:31: minSamples is 20, above maxSamples, which is 10");
     EXPECT_CONTAINS(errorOfJson(R"({ "integrator": { "adaptive": { "threshold": 1 } } })"),
                     "unknown key \"threshold\" in \"adaptive\" of the integrator; did you mean \"epsilon\"?");
 }
@@ -309,7 +309,7 @@ struct Sample {
 const Sample SAMPLES[] = {
     {"film", R"({ "film": { )", " } }"},
     {"integrator", R"({ "integrator": { )", " } }"},
-    {"adaptive", R"({ "integrator": { "adaptive": { "rule": "report", )", " } } }"},
+    {"adaptive", R"({ "integrator": { "adaptive": { )", " } } }"},
     {"camera", R"({ "camera": { "eye": [0,0,5], "lookAt": [0,0,0], )", " } }"},
     {"directionCamera", R"({ "camera": { "position": [0,0,5], "right": [1,0,0], "up": [0,1,0], )",
      " } }"},
@@ -335,6 +335,8 @@ std::string sceneWith(const Sample& sample, const std::string& key, const std::s
     if (sample.object == std::string("disk") && key != "radius") rest = R"(, "radius": 1)";
     if (sample.object == std::string("directionCamera") && key != "fovRad")
         rest = R"(, "fovRad": 1)";
+    if (sample.object == std::string("adaptive") && key != "rule")
+        rest = R"(, "rule": "report")";
     return sample.before + ("\"" + key + "\": " + value) + rest + sample.after;
 }
 
