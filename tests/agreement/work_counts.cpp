@@ -23,13 +23,7 @@ struct Recount {
 class Walk {
 public:
     Walk(Kernel<>& kernel, vec3 org, vec3 dir, bool anyHit, Recount& count)
-        : kernel_(kernel),
-          org_(org),
-          dir_(dir),
-          anyHit_(anyHit),
-          boxes_(kernel.makeBoxRay(org, dir)),
-          sheared_(kernel.shearRay(dir)),
-          count_(count)
+        : kernel_(kernel), anyHit_(anyHit), ray_(kernel.makeWalkRay(org, dir, 0, 0)), count_(count)
     {
     }
 
@@ -43,8 +37,8 @@ public:
         count_.nodes++;
         const BvhNode& node = kernel_.nodes[ref];
         float entry0 = 0, entry1 = 0;
-        const bool met0 = kernel_.intersectBox(boxes_, node.lo0, node.hi0, walk.tHit, entry0);
-        const bool met1 = kernel_.intersectBox(boxes_, node.lo1, node.hi1, walk.tHit, entry1);
+        const bool met0 = kernel_.intersectBox(ray_.boxes, node.lo0, node.hi0, walk.tHit, entry0);
+        const bool met1 = kernel_.intersectBox(ray_.boxes, node.lo1, node.hi1, walk.tHit, entry1);
         const bool oneFirst = met0 && met1 && entry1 < entry0;
         if (oneFirst) visit(node.ref1, walk);
         if (met0) visit(node.ref0, walk);
@@ -57,16 +51,14 @@ private:
         const uint first = (ref & ~REF_LEAF) >> LEAF_COUNT_BITS;
         const uint size = (ref & (MAX_LEAF_SIZE - 1)) + 1;
         for (uint slot = first; slot < first + size; slot++) {
-            kernel_.visitPrimitive(org_, dir_, sheared_, boxes_, slot, walk);
+            kernel_.visitPrimitive(ray_, slot, walk);
             count_.primitives++;
         }
     }
 
     Kernel<>& kernel_;
-    vec3 org_, dir_;
     bool anyHit_;
-    Kernel<>::BoxRay boxes_;
-    Kernel<>::ShearedRay sheared_;
+    Kernel<>::WalkRay ray_;
     Recount& count_;
 };
 
