@@ -1,5 +1,6 @@
 #include "app/options.h"
 
+#include "app/adaptive.h"
 #include "app/option_kinds.h"
 #include "app/shading_options.h"
 #include "film/film.h"
@@ -56,6 +57,7 @@ void addSceneOptions(CLI::App& command, CommonOptions& options)
     addNumber(command, "--max-bounces", scene.maxBounces, {0, 65535}, "scatterings of a path",
               SCENES)
         ->group("Picture");
+    addAdaptiveOptions(command, scene);
 
     addShadingOptions(command, scene);
 

@@ -27,9 +27,14 @@ PartialPictures::PartialPictures(double seconds, std::function<void(const Render
 {
 }
 
+bool PartialPictures::isDue() const
+{
+    return std::chrono::duration<double>(Clock::now() - last_).count() >= seconds_;
+}
+
 void PartialPictures::passDone(const RenderResult& result)
 {
-    if (std::chrono::duration<double>(Clock::now() - last_).count() < seconds_) return;
+    if (!isDue()) return;
     try {
         write_(result);
     } catch (const std::exception& failure) {

@@ -19,6 +19,9 @@ public:
     /// warning: what it costs is known only when the picture is finished.
     PartialPictures(double seconds, std::function<void(const RenderResult&)> write);
 
+    /// Whether the last time lies `seconds` back.
+    bool isDue() const;
+
     /// Writes when the last time lies `seconds` back: since the end of writing, so that slow files
     /// do not take all the time.
     void passDone(const RenderResult& result);

@@ -1,6 +1,7 @@
 // sahl render: from a scene file to pictures.
 
 #include "render/render.h"
+#include "app/adaptive.h"
 #include "app/commands.h"
 #include "app/crop.h"
 #include "app/map_options.h"
@@ -103,6 +104,11 @@ std::vector<ImageChannel> firstHitLayers(const RenderOptions& options, const Pre
                             prepared.scene.objectStarts);
 }
 
+AdaptiveReport reportOf(const RenderSettings& settings, const RenderResult& result)
+{
+    return {settings.adaptive, result.adaptive, result.film.counters.cameraRays};
+}
+
 ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_t samplesTaken,
                          const Device& device)
 {
@@ -121,6 +127,7 @@ ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_
                                  {"sahl.interrupted", result.interrupted ? "yes" : "no"},
                                  {"sahl.device", info.name},
                                  {"sahl.driver", info.driver}});
+    if (isAdaptive(scene.settings)) metadata.merge(adaptiveMetadata(reportOf(scene.settings, result)));
     return metadata;
 }
 
@@ -174,11 +181,35 @@ void writeAll(const RenderOptions& options, const Film& film, std::vector<ImageC
 void writePictures(const RenderOptions& options, const Scene& scene, const RenderResult& result,
                    const Device& device, std::vector<ImageChannel> firstHits, bool partial)
 {
-    uint32_t samplesTaken = std::min(scene.settings.spp, result.passes * BLOCK_SIZE);
+    uint32_t samplesTaken = std::min(mostSamples(scene.settings), result.passes * BLOCK_SIZE);
     ImageMetadata metadata = metadataOf(scene, result, samplesTaken, device);
     if (options.crop) metadata["sahl.crop"] = cropText(*options.crop);
     if (partial) metadata["sahl.partial"] = "yes";
     writeAll(options, result.film, std::move(firstHits), metadata, partial);
+}
+
+/// Renders all samples, or as many as the scene's rule wants, with progress and partial pictures.
+RenderResult renderLight(const RenderOptions& options, const Scene& scene, const RenderPlan& plan,
+                         const std::vector<ImageChannel>& firstHits, Device& device)
+{
+    ProgressPrinter printer(options.common.progress, options.common.quiet, plan.sampleCount);
+    auto report = [&](const RenderProgress& progress) { printer.update(progress); };
+    PartialPictures partial(options.partialSeconds.value_or(0), [&](const RenderResult& soFar) {
+        writePictures(options, scene, soFar, device, firstHits, true);
+    });
+    RenderResult result;
+    if (isAdaptive(scene.settings)) {
+        result = renderAdaptive(device, plan, scene.settings.adaptive, report,
+                                [&](const std::function<RenderResult()>& soFar) {
+                                    if (options.partialSeconds && partial.isDue()) partial.passDone(soFar());
+                                });
+    } else {
+        result = renderPicture(device, plan, report, [&](const RenderResult& soFar) {
+            if (options.partialSeconds) partial.passDone(soFar);
+        });
+    }
+    printer.finish();
+    return result;
 }
 
 /// What a signal left of the picture. Without a single sample no file is replaced.
@@ -191,8 +222,8 @@ void sayInterrupted(const RenderOptions& options, const RenderSettings& settings
     } else if (result.passes == 0) {
         say("sahl: interrupted in the first pass; saving its finished tiles, the rest is black\n");
     } else {
-        say("sahl: interrupted; saving {} of {} samples per pixel\n", result.passes * BLOCK_SIZE,
-            settings.spp);
+        say("sahl: interrupted; saving {}{} of {} samples per pixel\n", isAdaptive(settings) ? "up to " : "",
+            result.passes * BLOCK_SIZE, mostSamples(settings));
     }
 }
 
@@ -229,7 +260,7 @@ int runRender(RenderOptions& options)
     seconds.upload = watch.lap();
 
     const RenderSettings& settings = prepared.scene.settings;
-    RenderPlan plan = {filmSettings.width, filmSettings.height, 0, settings.spp,
+    RenderPlan plan = {filmSettings.width, filmSettings.height, 0, mostSamples(settings),
                        options.common.tileSize};
     if (options.crop) {
         plan.left = options.crop->x;
@@ -237,16 +268,7 @@ int runRender(RenderOptions& options)
     }
     std::vector<ImageChannel> firstHits = firstHitLayers(options, prepared, plan, *device);
     seconds.firstHits = watch.lap();
-    ProgressPrinter printer(options.common.progress, options.common.quiet, settings.spp);
-    PartialPictures partial(options.partialSeconds.value_or(0), [&](const RenderResult& soFar) {
-        writePictures(options, prepared.scene, soFar, *device, firstHits, true);
-    });
-    RenderResult result = renderPicture(
-        *device, plan, [&](const RenderProgress& progress) { printer.update(progress); },
-        [&](const RenderResult& soFar) {
-            if (options.partialSeconds) partial.passDone(soFar);
-        });
-    printer.finish();
+    RenderResult result = renderLight(options, prepared.scene, plan, firstHits, *device);
     seconds.render = watch.lap();
 
     if (result.interrupted) sayInterrupted(options, settings, result);
@@ -257,10 +279,14 @@ int runRender(RenderOptions& options)
     seconds.total = watch.total();
     if (!options.statsPath.empty()) {
         auto json = statisticsJson(prepared, result.film, *device, seconds);
+        if (isAdaptive(settings)) json["adaptive"] = adaptiveJson(reportOf(settings, result));
         writeFileAtomically(options.statsPath, json.dump(2) + "\n");
     }
 
     printSummary(options, prepared, result);
+    if (isAdaptive(settings) && !options.common.quiet) {
+        say("{}\n", adaptiveSummary(reportOf(settings, result)));
+    }
     if (options.common.verbose) printDetails(prepared, *device);
     if (!options.common.quiet) {
         for (const fs::path& path : outputs) {

@@ -1,6 +1,7 @@
 // Statistics of a run as JSON; keys are documented in docs/stats.md.
 #pragma once
 
+#include "app/adaptive.h"
 #include "device/device.h"
 #include "film/film.h"
 #include "render/prepare.h"

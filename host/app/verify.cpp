@@ -1,6 +1,7 @@
 // sahl verify: does the device compute what the text says?
 
 #include "render/verify.h"
+#include "app/adaptive.h"
 #include "app/commands.h"
 #include "app/option_kinds.h"
 #include "app/options.h"
@@ -71,7 +72,7 @@ void printVerdict(const Scene& scene, const Device& device, const Device& refere
                   const VerifyResult& result)
 {
     const RenderSettings& s = scene.settings;
-    answer("scene      {}, {}x{}, {} spp, {} bounces\n", scene.name, s.width, s.height, s.spp,
+    answer("scene      {}, {}x{}, {}, {} bounces\n", scene.name, s.width, s.height, samplesText(s),
            s.maxBounces);
     for (const auto& [who, d] :
          {std::pair{"device   ", &device}, std::pair{"reference", &reference}}) {
@@ -110,17 +111,22 @@ int runVerify(VerifyOptions& options)
     std::unique_ptr<Device> device = openDeviceFor(options.common);
     std::unique_ptr<Device> reference = makeCpuDevice(options.common.deviceOptions);
 
+    const RenderSettings& settings = prepared.scene.settings;
     ProgressPrinter printer(options.common.progress, options.common.quiet || options.json,
-                            prepared.scene.settings.spp);
+                            mostSamples(settings));
     Stopwatch watch;
+    auto report = [&](double fraction) {
+        RenderProgress progress;
+        progress.fraction = fraction;
+        progress.seconds = watch.total();
+        printer.update(progress);
+    };
     VerifyResult result =
-        verifyDevice(*device, *reference, prepared.deviceScene(), prepared.scene.settings.spp,
-                     options.common.tileSize, [&](double fraction) {
-                         RenderProgress progress;
-                         progress.fraction = fraction;
-                         progress.seconds = watch.total();
-                         printer.update(progress);
-                     });
+        isAdaptive(settings)
+            ? verifyAdaptive(*device, *reference, prepared.deviceScene(), settings.adaptive,
+                             options.common.tileSize, report)
+            : verifyDevice(*device, *reference, prepared.deviceScene(), settings.spp,
+                           options.common.tileSize, report);
     printer.finish();
     if (result.interrupted) {
         say("sahl: interrupted; nothing is decided\n");

@@ -5,11 +5,66 @@
 #include "util/error.h"
 #include "util/parallel.h"
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
+#include <numeric>
 
 namespace sahl {
 
 namespace {
+
+void refuseFaults(const PixelBlock& block)
+{
+    if (block.faults == 0) return;
+    throw Error(ErrorKind::deviceLost, "the CPU's traversal stack overflowed: the tree is deeper "
+                                       "than the builder promises; please report this scene");
+}
+
+class CpuAdaptiveTile final : public AdaptiveTile {
+public:
+    CpuAdaptiveTile(const DeviceScene& scene, const TileRequest& tile, const AdaptiveRule& rule,
+                    uint32_t order, unsigned threads, DeviceStatistics& statistics)
+        : scene_(scene), tile_(tile), rule_(rule), order_(order), threads_(threads), statistics_(statistics),
+          pixels_(size_t{tile.width} * tile.height), active_(pixels_.size())
+    {
+        std::iota(active_.begin(), active_.end(), 0u);
+    }
+
+    AdaptivePass runPass() override
+    {
+        if (active_.empty()) return {};
+        auto start = std::chrono::steady_clock::now();
+        reference::foldBlocks(before_, pixels_);
+        reference::renderAdaptivePass(scene_, tile_, rule_, order_, threads_, active_, pixels_);
+        before_ = active_;
+        std::erase_if(active_, [&](uint32_t i) { return pixels_[i].state != PIXEL_ACTIVE; });
+        AdaptivePass pass = {static_cast<uint32_t>(active_.size()), 0, 0};
+        for (uint32_t i : before_) {
+            const PixelBlock& block = pixels_[i].block;
+            refuseFaults(block);
+            pass.samples += block.samplesDone;
+            pass.rays += uint64_t{block.samplesDone} + block.indirectRays + block.shadowRays;
+        }
+        std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        statistics_.renderSeconds += seconds.count();
+        statistics_.dispatches++;
+        return pass;
+    }
+
+    void read(std::span<AdaptivePixel> pixels) override { std::ranges::copy(pixels_, pixels.begin()); }
+
+private:
+    DeviceScene scene_;
+    TileRequest tile_;
+    AdaptiveRule rule_;
+    uint32_t order_;
+    unsigned threads_;
+    DeviceStatistics& statistics_;
+    std::vector<AdaptivePixel> pixels_;
+    std::vector<uint32_t> active_;  // pixels of the next pass
+    std::vector<uint32_t> before_;  // of the newest: not yet in the film
+};
 
 class CpuDevice final : public Device {
 public:
@@ -41,12 +96,7 @@ public:
         std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         statistics_.renderSeconds += seconds.count();
         statistics_.dispatches++;
-        for (const PixelBlock& block : blocks) {
-            if (block.faults != 0) {
-                throw Error(ErrorKind::deviceLost, "the CPU's traversal stack overflowed: the tree is deeper "
-                                                   "than the builder promises; please report this scene");
-            }
-        }
+        for (const PixelBlock& block : blocks) refuseFaults(block);
     }
 
     void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override
@@ -54,7 +104,14 @@ public:
         reference::renderFirstHits(scene_, tile, threads_, pixels);
     }
 
+    std::unique_ptr<AdaptiveTile> beginAdaptive(const TileRequest& tile, const AdaptiveRule& rule) override
+    {
+        return std::make_unique<CpuAdaptiveTile>(scene_, tile, rule, order_, threads_, statistics_);
+    }
+
     uint32_t maxTilePixels() const override { return 1u << 16; }
+
+    uint64_t maxAdaptivePixels() const override { return std::numeric_limits<uint64_t>::max(); }
 
     DeviceStatistics statistics() const override { return statistics_; }
 

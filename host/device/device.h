@@ -2,6 +2,7 @@
 // Both run the text of shaders/pathtrace/ and give the same bits.
 #pragma once
 
+#include "shared/adaptive_types.h"
 #include "shared/film_types.h"
 #include "shared/scene_types.h"
 
@@ -54,6 +55,27 @@ struct DeviceStatistics {
     bool texelBuffers = false;  ///< scene read through texel buffers rather than storage buffers
 };
 
+/// What a pass of adaptive sampling did.
+struct AdaptivePass {
+    uint32_t activePixels = 0;  ///< that the rule has not stopped; with 0 the tile is finished
+    uint64_t samples = 0;       ///< of this pass
+    uint64_t rays = 0;          ///< of all kinds, of this pass
+};
+
+/// Adaptive sampling of a tile. What the pixels have so far, which of them go on and whether they have
+/// enough lives on the device; only a pass's few counts come back.
+class AdaptiveTile {
+public:
+    virtual ~AdaptiveTile() = default;
+
+    /// Up to BLOCK_SIZE samples more for every active pixel: fewer for pixels that the rule stops on the
+    /// way. Pixels that are finished cost nothing. Throws deviceLost.
+    virtual AdaptivePass runPass() = 0;
+
+    /// All pixels as they are now, top row first; pixels.size() == width * height.
+    virtual void read(std::span<AdaptivePixel> pixels) = 0;
+};
+
 class Device {
 public:
     virtual ~Device() = default;
@@ -73,8 +95,17 @@ public:
     /// samples from sample 0 on. pixels.size() == width * height. Throws as render() does.
     virtual void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) = 0;
 
+    /// Begins adaptive sampling of a tile with its sample 0; tile.firstSample and sampleCount have no
+    /// meaning. The result must be gone before the next setScene() and before the device. Several may be
+    /// alive. Throws as render() does.
+    virtual std::unique_ptr<AdaptiveTile> beginAdaptive(const TileRequest& tile,
+                                                        const AdaptiveRule& rule) = 0;
+
     /// Largest width * height that render() takes.
     virtual uint32_t maxTilePixels() const = 0;
+
+    /// Pixels that all AdaptiveTiles alive should have together at most, for their memory.
+    virtual uint64_t maxAdaptivePixels() const = 0;
 
     virtual DeviceStatistics statistics() const = 0;
 };

@@ -1,6 +1,7 @@
 // The Device that runs the path tracing kernels on Vulkan.
-#include "device/device.h"
+#include "device/bounded_work.h"
 #include "device/exact_math.h"
+#include "device/vulkan_adaptive.h"
 #include "device/vulkan_limits.h"
 #include "device/vulkan_scene.h"
 #include "kernels/spirv.h"
@@ -14,25 +15,15 @@ namespace sahl {
 
 namespace {
 
-constexpr uint32_t MIN_STEP_BUDGET = 64;     // a driver that cuts fewer steps than that is broken
-constexpr uint32_t MAX_CUT_ROUNDS = 64;      // at the smallest budget, without a finished sample
-constexpr double SUBMISSION_SECONDS = 0.25;  // aimed at: watchdogs of real GPUs bite after 2 s
-
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// What the blocks of a tile say after a round of dispatches.
-struct TileState {
-    uint32_t samplesMissing = 0;  ///< of the pixel that lacks most
-    uint64_t samplesDone = 0;     ///< of all pixels
-    uint32_t faults = 0;          ///< FAULT_* of any pixel
-};
-
-TileState inspect(std::span<const PixelBlock> blocks, uint32_t sampleCount)
+RoundState inspect(std::span<const PixelBlock> blocks, uint32_t sampleCount)
 {
-    TileState state;
+    RoundState state;
     for (const PixelBlock& block : blocks) {
         uint32_t done = std::min(block.samplesDone, sampleCount);
         state.samplesMissing = std::max(state.samplesMissing, sampleCount - done);
@@ -57,27 +48,30 @@ public:
     void setScene(const DeviceScene& scene) override;
     void render(const TileRequest& tile, std::span<PixelBlock> blocks) override;
     void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override;
-    uint32_t maxTilePixels() const override { return tilePixelLimit(context_->physical); }
+    std::unique_ptr<AdaptiveTile> beginAdaptive(const TileRequest& tile,
+                                                const AdaptiveRule& rule) override;
+    uint32_t maxTilePixels() const override { return tilePixelLimit(context_->physical, group_); }
+    uint64_t maxAdaptivePixels() const override { return adaptivePixelLimit(context_->physical); }
     DeviceStatistics statistics() const override { return statistics_; }
 
 private:
-    ComputePipeline makePipeline(const std::string& kernel, uint32_t bindingCount) const;
+    ComputePipeline makePipeline(const std::string& kernel, uint32_t bindingCount,
+                                 uint32_t pushConstantBytes = sizeof(Dispatch)) const;
     void preparePipeline(bool texel, bool instances, uint32_t stackSize);
     void prepareTileBuffers(size_t pixels);
     void prepareFirstHits(size_t pixels);
     void bindAll(ComputePipeline& pipeline);
     void renderBlocks(const TileRequest& tile, std::span<PixelBlock> blocks);
     void requireTile(const TileRequest& tile, size_t blockCount) const;
-    void runRound(const TileRequest& tile, uint32_t dispatches, bool begin,
-                  std::span<PixelBlock> blocks);
+    RoundState runRound(const TileRequest& tile, uint32_t dispatches, bool begin,
+                        std::span<PixelBlock> blocks);
     void submit(const TileRequest& tile, uint32_t dispatches, bool begin, bool end);
-    void finishTile(const TileRequest& tile, std::span<PixelBlock> blocks);
-    void handleFaults(const TileRequest& tile, uint32_t faults);
 
     std::unique_ptr<Context> context_;  // stands first: everything below is made from it
     DeviceOptions options_;
     std::array<uint32_t, 2> group_;
-    uint32_t minStepBudget_;
+    DeviceStatistics statistics_;
+    BoundedWork work_;
     ComputePipeline pipeline_;
     ComputePipeline firstHitsPipeline_;          // made when first asked for
     const ComputePipeline* active_ = nullptr;    // the one of the two that dispatches use
@@ -89,19 +83,15 @@ private:
     Buffer firstHits_;
     bool bound_ = false;           // pipeline_'s descriptor set holds the buffers above
     bool firstHitsBound_ = false;  // likewise
-    double secondsPerPixel_ = 0;  // of one dispatch, as last measured; 0 before the first
-    uint32_t cutRounds_ = 0;      // in a row, at the smallest step budget
-    DeviceStatistics statistics_;
+    std::unique_ptr<AdaptivePipelines> adaptive_;  // made when first asked for
 };
 
 VulkanDevice::VulkanDevice(std::unique_ptr<Context> context, const DeviceOptions& options)
     : context_(std::move(context)),
       options_(options),
-      group_(chooseGroupShape(context_->physical, options.groupWidth, options.groupHeight))
+      group_(chooseGroupShape(context_->physical, options.groupWidth, options.groupHeight)),
+      work_(context_->physical, options.stepBudget, statistics_)
 {
-    statistics_.stepBudget =
-        options.stepBudget > 0 ? options.stepBudget : defaultStepBudget(context_->physical);
-    minStepBudget_ = std::min(MIN_STEP_BUDGET, statistics_.stepBudget);
     statistics_.exactMath = chooseExactMath(*context_, options.math);
 }
 
@@ -127,7 +117,8 @@ void VulkanDevice::setScene(const DeviceScene& scene)
 }
 
 /// A pipeline of the kernel `kernel`_texel or `kernel`_storage, for the stack and buffers in force.
-ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t bindingCount) const
+ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t bindingCount,
+                                           uint32_t pushConstantBytes) const
 {
     PipelineRequest request;
     request.name = kernel + (pipelineTexel_ ? "_texel" : "_storage");
@@ -138,7 +129,7 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     request.bindings[BINDING_INSTANCES] = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
     request.bindings.resize(bindingCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     request.bindings[BINDING_FRAME] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    request.pushConstantBytes = sizeof(Dispatch);
+    request.pushConstantBytes = pushConstantBytes;
     request.specialisation.resize(SPEC_COUNT);
     request.specialisation[SPEC_GROUP_WIDTH] = group_[0];
     request.specialisation[SPEC_GROUP_HEIGHT] = group_[1];
@@ -158,6 +149,7 @@ void VulkanDevice::preparePipeline(bool texel, bool instances, uint32_t stackSiz
     pipelineInstances_ = instances;
     firstHitsPipeline_ = {};
     firstHitsBound_ = false;
+    adaptive_ = {};
     try {
         pipeline_ = makePipeline("path", BINDING_COUNT);
     } catch (...) {
@@ -253,76 +245,38 @@ void VulkanDevice::renderFirstHits(const TileRequest& tile, std::span<FirstHits>
     readBuffer(firstHits_, std::as_writable_bytes(pixels));
 }
 
+std::unique_ptr<AdaptiveTile> VulkanDevice::beginAdaptive(const TileRequest& tile, const AdaptiveRule& rule)
+{
+    TileRequest first = tile;
+    first.firstSample = 0;
+    first.sampleCount = 1;
+    size_t pixels = size_t{tile.width} * tile.height;
+    requireTile(first, pixels);
+    prepareTileBuffers(pixels);
+    if (!adaptive_) {
+        ComputePipeline path = makePipeline("adaptive_path", BINDING_COUNT, sizeof(AdaptiveDispatch));
+        adaptive_ = std::make_unique<AdaptivePipelines>(makeAdaptivePipelines(*context_, std::move(path), group_));
+    }
+    AdaptiveHost host = {*context_, *adaptive_, *scene_, suspended_, work_, statistics_, pipelineStack_};
+    return makeVulkanAdaptiveTile(host, tile, rule);
+}
+
 void VulkanDevice::renderBlocks(const TileRequest& tile, std::span<PixelBlock> blocks)
 {
-    runRound(tile, tile.sampleCount, true, blocks);
-    finishTile(tile, blocks);
+    RoundState state = runRound(tile, tile.sampleCount, true, blocks);
+    work_.finish({tileName(tile), scene_->stepsPerSample, pipelineStack_}, state,
+                 [&](uint32_t dispatches) { return runRound(tile, dispatches, false, blocks); });
 }
 
-/// Dispatches until every pixel has all its samples: paths that ran out of steps go on, pixels in
-/// which a loop was cut go again with fewer steps.
-void VulkanDevice::finishTile(const TileRequest& tile, std::span<PixelBlock> blocks)
+/// Runs `dispatches` dispatches and reads the blocks back. `begin`: the tile's blocks are cleared before.
+RoundState VulkanDevice::runRound(const TileRequest& tile, uint32_t dispatches, bool begin,
+                                  std::span<PixelBlock> blocks)
 {
-    TileState state = inspect(blocks, tile.sampleCount);
-    uint64_t idleSteps = 0;  // offered since the last sample was finished
-    cutRounds_ = 0;
-    while (state.samplesMissing > 0) {
-        if (state.faults != 0) handleFaults(tile, state.faults);
-        uint32_t dispatches = state.samplesMissing;
-        uint64_t before = state.samplesDone;
-        runRound(tile, dispatches, false, blocks);
-        statistics_.resumptions += dispatches;
-        state = inspect(blocks, tile.sampleCount);
-        if (state.samplesDone > before) cutRounds_ = 0;
-        bool progress = state.samplesDone > before || state.faults != 0;
-        idleSteps = progress ? 0 : idleSteps + uint64_t{dispatches} * statistics_.stepBudget;
-        if (idleSteps > scene_->stepsPerSample + statistics_.stepBudget)
-            throw Error(ErrorKind::deviceLost,
-                        fmt::format("{}: '{}' makes no progress: {} steps for each path and none "
-                                    "ended, though {} are enough for any; the driver does not "
-                                    "compute what it was given, try --device cpu",
-                                    tileName(tile), context_->physical.name, idleSteps,
-                                    scene_->stepsPerSample));
-    }
-}
-
-/// Counts a retry and halves the step budget. Throws deviceLost when that does not help any more.
-void VulkanDevice::handleFaults(const TileRequest& tile, uint32_t faults)
-{
-    if (faults & FAULT_STACK_OVERFLOW)
-        throw Error(ErrorKind::deviceLost,
-                    fmt::format("{}: on '{}' a traversal overflowed its stack of {} entries, which "
-                                "the tree's depth rules out; the driver does not compute what it "
-                                "was given, try --device cpu",
-                                tileName(tile), context_->physical.name, pipelineStack_));
-    statistics_.retries++;
-    if (statistics_.stepBudget > minStepBudget_) {
-        statistics_.stepBudget = std::max(statistics_.stepBudget / 2, minStepBudget_);
-        return;
-    }
-    if (++cutRounds_ > MAX_CUT_ROUNDS)
-        throw Error(ErrorKind::deviceLost,
-                    fmt::format("{}: '{}' ends loops before their end even at {} steps a dispatch, "
-                                "so nothing can be computed on it; try --device cpu",
-                                tileName(tile), context_->physical.name, statistics_.stepBudget));
-}
-
-/// Runs `dispatches` dispatches in submissions of about SUBMISSION_SECONDS and reads the blocks
-/// back. `begin`: the tile's blocks are cleared before.
-void VulkanDevice::runRound(const TileRequest& tile, uint32_t dispatches, bool begin,
-                            std::span<PixelBlock> blocks)
-{
-    auto pixels = static_cast<double>(blocks.size());
-    for (uint32_t done = 0; done < dispatches;) {
-        double fit = secondsPerPixel_ > 0 ? SUBMISSION_SECONDS / (secondsPerPixel_ * pixels) : 1;
-        auto count = static_cast<uint32_t>(std::clamp(fit, 1.0, double(dispatches - done)));
-        auto start = std::chrono::steady_clock::now();
-        submit(tile, count, begin && done == 0, done + count == dispatches);
-        secondsPerPixel_ = secondsSince(start) / (pixels * count);
-        done += count;
-    }
-    statistics_.dispatches += dispatches;
+    work_.runInParts(blocks.size(), dispatches, [&](uint32_t count, bool isFirst, bool isLast) {
+        submit(tile, count, begin && isFirst, isLast);
+    });
     readBuffer(pixels_, std::as_writable_bytes(blocks));
+    return inspect(blocks, tile.sampleCount);
 }
 
 void VulkanDevice::submit(const TileRequest& tile, uint32_t dispatches, bool begin, bool end)

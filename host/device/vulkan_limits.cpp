@@ -77,9 +77,9 @@ std::string whyUnusable(const PhysicalDevice& device)
     if (limits.maxPerStageDescriptorStorageBuffers < TILE_STORAGE_BUFFERS) return noStorage;
     if (!noTexels.empty() && !noStorage.empty())
         return fmt::format("it has {}, and {}", noTexels, noStorage);
-    if (limits.maxPushConstantsSize < sizeof(Dispatch))
+    if (limits.maxPushConstantsSize < sizeof(AdaptiveDispatch))
         return fmt::format("it has {} bytes of push constants, needs {}",
-                           limits.maxPushConstantsSize, sizeof(Dispatch));
+                           limits.maxPushConstantsSize, sizeof(AdaptiveDispatch));
     if (limits.maxUniformBufferRange < sizeof(Frame))
         return fmt::format("it has {} bytes of uniform buffer, needs {}",
                            limits.maxUniformBufferRange, sizeof(Frame));
@@ -131,13 +131,19 @@ uint32_t defaultStepBudget(const PhysicalDevice& device)
     return device.kind == "software" ? 4000 : 1u << 16;
 }
 
-uint32_t tilePixelLimit(const PhysicalDevice& device)
+uint32_t tilePixelLimit(const PhysicalDevice& device, const std::array<uint32_t, 2>& group)
 {
     // Enough invocations to fill the device; small enough on software to answer Ctrl-C soon.
     uint64_t wanted = device.kind == "software" ? 1u << 16 : 1u << 18;
-    uint64_t range = std::min<uint64_t>(device.properties.limits.maxStorageBufferRange,
-                                        device.maxAllocationBytes);
-    return static_cast<uint32_t>(std::min(wanted, range / sizeof(SuspendedPath)));
+    const VkPhysicalDeviceLimits& limits = device.properties.limits;
+    uint64_t range = std::min<uint64_t>(limits.maxStorageBufferRange, device.maxAllocationBytes);
+    uint64_t invocations = uint64_t{limits.maxComputeWorkGroupCount[0]} * group[0] * group[1];
+    return static_cast<uint32_t>(std::min({wanted, range / sizeof(SuspendedPath), invocations}));
+}
+
+uint64_t adaptivePixelLimit(const PhysicalDevice& device)
+{
+    return mainHeapBytes(device) / 2 / sizeof(AdaptivePixel);
 }
 
 }  // namespace sahl

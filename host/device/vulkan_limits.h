@@ -35,7 +35,11 @@ uint32_t chooseStackSize(uint32_t treeDepth);
 /// Steps one invocation takes a dispatch when the user named none.
 uint32_t defaultStepBudget(const PhysicalDevice& device);
 
-/// Largest tile [pixels]: bounded by the suspended paths, which must fit one storage buffer.
-uint32_t tilePixelLimit(const PhysicalDevice& device);
+/// Largest tile [pixels]: bounded by the suspended paths, which must fit one storage buffer, and by the
+/// workgroups of shape `group` that one dispatch may have in a row.
+uint32_t tilePixelLimit(const PhysicalDevice& device, const std::array<uint32_t, 2>& group);
+
+/// Largest number of pixels under adaptive sampling at a time: half of the device's memory.
+uint64_t adaptivePixelLimit(const PhysicalDevice& device);
 
 }  // namespace sahl

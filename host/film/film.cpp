@@ -57,6 +57,49 @@ Counters countersOf(const PixelBlock& block)
     return counters;
 }
 
+Fixed64x64 fixedOf(const uvec4& words)
+{
+    return {uint64_t{words.w} << 32 | words.z, uint64_t{words.y} << 32 | words.x};
+}
+
+uint64_t countOf(const uvec2& words)
+{
+    return uint64_t{words.y} << 32 | words.x;
+}
+
+/// Saturates as PixelWork does.
+uint32_t smallCount(const uvec2& words)
+{
+    return words.y != 0 ? std::numeric_limits<uint32_t>::max() : words.x;
+}
+
+PixelWork workOf(const FilmPixel& pixel)
+{
+    return {smallCount(pixel.boxTests), smallCount(pixel.primitiveTests)};
+}
+
+void addSums(HalfPixel& pixel, const FilmSums& sums, uint32_t samples)
+{
+    pixel.sum[0].add(fixedOf(sums.red));
+    pixel.sum[1].add(fixedOf(sums.green));
+    pixel.sum[2].add(fixedOf(sums.blue));
+    pixel.sumY2.add(fixedOf(sums.y2));
+    pixel.samples += samples;
+}
+
+Counters countersOf(const FilmPixel& pixel)
+{
+    Counters counters;
+    counters.cameraRays = uint64_t{pixel.samplesA} + pixel.samplesB;
+    counters.indirectRays = countOf(pixel.indirectRays);
+    counters.shadowRays = countOf(pixel.shadowRays);
+    counters.boxTests = countOf(pixel.boxTests);
+    counters.primitiveTests = countOf(pixel.primitiveTests);
+    counters.bounces = countOf(pixel.bounces);
+    counters.badSamples = pixel.badSamples;
+    return counters;
+}
+
 }  // namespace
 
 Film::Film(uint32_t filmWidth, uint32_t filmHeight) : width(filmWidth), height(filmHeight)
@@ -83,6 +126,27 @@ void Film::add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,
             digest[pixel] += block.digest;
             work[pixel].add({block.boxTests, block.primitiveTests});
             counters.add(countersOf(block));
+        }
+    }
+}
+
+void Film::add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,
+               std::span<const AdaptivePixel> pixels, bool withNewestPass)
+{
+    assert(x <= width && tileWidth <= width - x && y <= height && tileHeight <= height - y);
+    assert(pixels.size() == size_t{tileWidth} * tileHeight);
+    for (uint32_t row = 0; row < tileHeight; row++) {
+        for (uint32_t column = 0; column < tileWidth; column++) {
+            const AdaptivePixel& from = pixels[size_t{row} * tileWidth + column];
+            const size_t pixel = size_t{y + row} * width + x + column;
+            addSums(half[0][pixel], from.film.sumsA, from.film.samplesA);
+            addSums(half[1][pixel], from.film.sumsB, from.film.samplesB);
+            digest[pixel] += from.film.digest;
+            work[pixel].add(workOf(from.film));
+            counters.add(countersOf(from.film));
+            if (!withNewestPass || from.block.samplesDone == 0) continue;
+            const uint32_t firstSample = from.film.samplesA + from.film.samplesB;
+            add(x + column, y + row, 1, 1, firstSample, {&from.block, 1});
         }
     }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "image/image.h"
+#include "shared/adaptive_types.h"
 #include "shared/film_types.h"
 
 #include <cstdint>
@@ -63,6 +64,10 @@ struct Film {
     /// Adds the blocks of a tile whose samples start at `firstSample`, a multiple of BLOCK_SIZE.
     void add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight, uint32_t firstSample,
              std::span<const PixelBlock> blocks);
+
+    /// Adds pixels of a tile under adaptive sampling, with or without what their newest pass added.
+    void add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,
+             std::span<const AdaptivePixel> pixels, bool withNewestPass);
 
     /// Adds a film of other samples of the same picture. The result does not depend on the order.
     void merge(const Film& other);

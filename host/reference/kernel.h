@@ -2,6 +2,7 @@
 // The text is included inside a struct whose members stand for the device's buffers.
 #pragma once
 
+#include "shared/adaptive_types.h"
 #include "shared/bindings.h"
 #include "shared/film_types.h"
 #include "shared/scene_types.h"
@@ -45,6 +46,19 @@ struct Kernel {
     vec3 loadProbeTexel(uint index) const { return vec3(probeTexels[index]); }
 
 #include "pathtrace/pathtrace.glsl"
+#include "pathtrace/film_sums.glsl"
+#include "pathtrace/adaptive.glsl"
+
+    /// Renders the pixel's next block: until it is full, or the rule stops the pixel.
+    void renderBlock(uint x, uint y, const AdaptiveRule& rule, AdaptivePixel& pixel)
+    {
+        uint before = samplesOf(pixel.film);
+        while (pixel.state == PIXEL_ACTIVE && pixel.block.samplesDone < BLOCK_SIZE) {
+            uint sampleIndex = before + pixel.block.samplesDone;
+            vec3 L = renderSample(x, y, sampleIndex, pixel.block);
+            pixel.state = stateAfter(rule, L, sampleIndex + 1, pixel.mean);
+        }
+    }
 
     /// Adds what the camera ray of a sample meets first.
     void renderFirstHit(uint x, uint y, uint sampleIndex, bool isFirst, FirstHits& sums)
@@ -59,8 +73,8 @@ struct Kernel {
         addFirstHit(path, walk, isFirst, sums);
     }
 
-    /// Renders sample `sampleIndex` of pixel (x, y) and adds it to the block.
-    void renderSample(uint x, uint y, uint sampleIndex, PixelBlock& block)
+    /// Renders sample `sampleIndex` of pixel (x, y), adds it to the block and returns what was added.
+    vec3 renderSample(uint x, uint y, uint sampleIndex, PixelBlock& block)
     {
         tally = {};
         faults = 0;
@@ -70,8 +84,8 @@ struct Kernel {
             stepsLeft = 0xffffffffu;
             advancePath(path, walk);
         }
-        addSample(path, block);
         block.faults |= faults;
+        return addSample(path, block);
     }
 };
 

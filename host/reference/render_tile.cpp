@@ -3,6 +3,8 @@
 #include "reference/kernel.h"
 #include "util/parallel.h"
 
+#include <algorithm>
+
 namespace sahl::reference {
 
 namespace {
@@ -39,7 +41,46 @@ void renderTileInOrder(const DeviceScene& scene, const TileRequest& tile, unsign
     });
 }
 
+template <uint Order, bool Instances = true>
+void renderPassInOrder(const DeviceScene& scene, const TileRequest& tile, const AdaptiveRule& rule,
+                       unsigned threads, std::span<const uint32_t> queue, std::span<AdaptivePixel> pixels)
+{
+    constexpr size_t CHUNK = 64;  // pixels, since making a kernel is not free
+    parallelFor((queue.size() + CHUNK - 1) / CHUNK, threads, [&](size_t chunk) {
+        auto kernel = kernelFor<Order, Instances>(scene);
+        size_t first = chunk * CHUNK;
+        for (uint32_t i : queue.subspan(first, std::min(CHUNK, queue.size() - first))) {
+            kernel.renderBlock(tile.x + i % tile.width, tile.y + i / tile.width, rule, pixels[i]);
+        }
+    });
+}
+
 }  // namespace
+
+void renderAdaptivePass(const DeviceScene& scene, const TileRequest& tile, const AdaptiveRule& rule,
+                        uint order, unsigned threads, std::span<const uint32_t> queue,
+                        std::span<AdaptivePixel> pixels)
+{
+    switch (order) {
+    case ORDER_LEFT_FIRST:
+        return renderPassInOrder<ORDER_LEFT_FIRST>(scene, tile, rule, threads, queue, pixels);
+    case ORDER_RIGHT_FIRST:
+        return renderPassInOrder<ORDER_RIGHT_FIRST>(scene, tile, rule, threads, queue, pixels);
+    default: break;
+    }
+    if (scene.instances.empty())
+        return renderPassInOrder<ORDER_NEAR_FIRST, false>(scene, tile, rule, threads, queue, pixels);
+    renderPassInOrder<ORDER_NEAR_FIRST, true>(scene, tile, rule, threads, queue, pixels);
+}
+
+void foldBlocks(std::span<const uint32_t> queue, std::span<AdaptivePixel> pixels)
+{
+    Kernel<> kernel = {};
+    for (uint32_t i : queue) {
+        kernel.addBlock(pixels[i].block, pixels[i].film);
+        pixels[i].block = kernel.emptyBlock();
+    }
+}
 
 void renderFirstHits(const DeviceScene& scene, const TileRequest& tile, unsigned threads,
                      std::span<FirstHits> pixels)

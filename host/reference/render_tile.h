@@ -13,6 +13,15 @@ void renderTile(const DeviceScene& scene, const TileRequest& tile, uint order, u
 void renderFirstHits(const DeviceScene& scene, const TileRequest& tile, unsigned threads,
                      std::span<FirstHits> pixels);
 
+/// A pass of adaptive sampling over the pixels of `queue`, each counted within the tile: see
+/// AdaptiveTile::runPass. `pixels` are those of the whole tile; blocks of the pass before are in the film.
+void renderAdaptivePass(const DeviceScene& scene, const TileRequest& tile, const AdaptiveRule& rule,
+                        uint order, unsigned threads, std::span<const uint32_t> queue,
+                        std::span<AdaptivePixel> pixels);
+
+/// Puts the blocks of these pixels into their film.
+void foldBlocks(std::span<const uint32_t> queue, std::span<AdaptivePixel> pixels);
+
 /// Compiler and version, as the "driver" of the CPU.
 std::string compilerName();
 

@@ -15,14 +15,6 @@ uint64_t raysOf(const Counters& counters)
     return counters.cameraRays + counters.indirectRays + counters.shadowRays;
 }
 
-/// A tile of the plan's window, where it is in the full picture.
-TileRequest inFullPicture(TileRequest tile, const RenderPlan& plan)
-{
-    tile.x += plan.left;
-    tile.y += plan.top;
-    return tile;
-}
-
 /// A rendered tile that waits for its pass to be complete.
 struct FinishedTile {
     TileRequest tile;
@@ -38,6 +30,13 @@ void addToFilm(const std::vector<FinishedTile>& tiles, Film& film)
 }
 
 }  // namespace
+
+TileRequest inFullPicture(TileRequest tile, const RenderPlan& plan)
+{
+    tile.x += plan.left;
+    tile.y += plan.top;
+    return tile;
+}
 
 std::vector<TileRequest> tilesOf(uint32_t width, uint32_t height, uint32_t tileSize, uint32_t maxPixels)
 {

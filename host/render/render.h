@@ -25,12 +25,20 @@ struct RenderProgress {
     double relativeError = 0;    ///< see relativeError() in film/film_error.h; 0 while unknown
 };
 
+/// How far the rule of adaptive sampling came.
+struct AdaptiveOutcome {
+    uint64_t pixels = 0;     ///< of the picture
+    uint64_t converged = 0;  ///< that the rule stopped
+    uint64_t atMaximum = 0;  ///< that have maxSamples without; the others were interrupted
+};
+
 struct RenderResult {
     Film film;
     uint32_t passes = 0;       ///< whole passes in the film; a pass is one block of every pixel
     bool interrupted = false;  ///< by a signal; a pass that was under way is not in the film, unless
                                ///< it was the first: then its finished tiles are
     double seconds = 0;
+    AdaptiveOutcome adaptive = {};  ///< of renderAdaptive() alone
 };
 
 /// Calls device.render() for every tile of every pass; the device's scene must be set.
@@ -44,6 +52,9 @@ RenderResult renderPicture(Device& device, const RenderPlan& plan,
 /// What the first `samples` (at most BLOCK_SIZE) camera rays of every pixel of the plan meet; width *
 /// height, top row first. The device's scene must be set.
 std::vector<FirstHits> renderFirstHits(Device& device, const RenderPlan& plan, uint32_t samples);
+
+/// The same tile of the plan's window as the device counts it.
+TileRequest inFullPicture(TileRequest tile, const RenderPlan& plan);
 
 /// The tiles of a picture, row by row: no tile has more than maxPixels.
 std::vector<TileRequest> tilesOf(uint32_t width, uint32_t height, uint32_t tileSize, uint32_t maxPixels);

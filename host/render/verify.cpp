@@ -36,9 +36,19 @@ std::string stageOf(const PixelBlock& a, const PixelBlock& b)
     return "counters";
 }
 
-/// Renders the pixel of a differing block again with fewer samples and bounces, to find the first ones
-/// that differ. Leaves both devices with the scene as given.
-Divergence locate(Device& device, Device& reference, const DeviceScene& scene, TileRequest pixel)
+uint64_t differingBits(const Fixed64x64& a, const Fixed64x64& b)
+{
+    return static_cast<uint64_t>(std::popcount(a.whole ^ b.whole) + std::popcount(a.fraction ^ b.fraction));
+}
+
+bool comesBefore(const TileRequest& a, const TileRequest& b)
+{
+    return a.y != b.y ? a.y < b.y : a.x < b.x;
+}
+
+}  // namespace
+
+Divergence locateDivergence(Device& device, Device& reference, const DeviceScene& scene, TileRequest pixel)
 {
     Divergence found;
     found.x = pixel.x;
@@ -74,11 +84,6 @@ Divergence locate(Device& device, Device& reference, const DeviceScene& scene, T
     return found;
 }
 
-uint64_t differingBits(const Fixed64x64& a, const Fixed64x64& b)
-{
-    return static_cast<uint64_t>(std::popcount(a.whole ^ b.whole) + std::popcount(a.fraction ^ b.fraction));
-}
-
 uint64_t differingBits(const Film& a, const Film& b)
 {
     uint64_t bits = 0;
@@ -92,13 +97,6 @@ uint64_t differingBits(const Film& a, const Film& b)
     }
     return bits;
 }
-
-bool comesBefore(const TileRequest& a, const TileRequest& b)
-{
-    return a.y != b.y ? a.y < b.y : a.x < b.x;
-}
-
-}  // namespace
 
 VerifyResult verifyDevice(Device& device, Device& reference, const DeviceScene& scene, uint32_t spp,
                           uint32_t tileSize, const std::function<void(double)>& report)
@@ -145,7 +143,7 @@ VerifyResult verifyDevice(Device& device, Device& reference, const DeviceScene& 
     }
     for (bool pixel : differs) result.differingPixels += pixel ? 1 : 0;
     result.differingFilmBits = differingBits(result.deviceFilm, result.referenceFilm);
-    if (first) result.first = locate(device, reference, scene, *first);
+    if (first) result.first = locateDivergence(device, reference, scene, *first);
     return result;
 }
 

@@ -39,6 +39,19 @@ struct VerifyResult {
 VerifyResult verifyDevice(Device& device, Device& reference, const DeviceScene& scene, uint32_t spp,
                           uint32_t tileSize, const std::function<void(double)>& report);
 
+/// The same under adaptive sampling by a rule: counts and decisions are compared as well. stage may also be
+/// "decision to stop", when all samples that both took of the pixel are the same.
+VerifyResult verifyAdaptive(Device& device, Device& reference, const DeviceScene& scene,
+                            const AdaptiveRule& rule, uint32_t tileSize,
+                            const std::function<void(double)>& report);
+
+/// Renders one pixel's block again with fewer samples and bounces, to find the first ones that differ.
+/// Leaves both devices with the scene as given.
+Divergence locateDivergence(Device& device, Device& reference, const DeviceScene& scene, TileRequest pixel);
+
+/// Bits of the films' integers that differ.
+uint64_t differingBits(const Film& a, const Film& b);
+
 /// Absolute difference of the two films' mean pictures.
 Image differenceImage(const Film& a, const Film& b);
 

@@ -1,6 +1,7 @@
 #include "scene/scene.h"
 
 #include "bvh/box.h"
+#include "scene/adaptive.h"
 #include "scene/camera.h"
 #include "scene/mesh_file.h"
 #include "scene/primitives.h"
@@ -75,6 +76,7 @@ void applyOptions(RenderSettings& settings, const SceneOptions& options)
     settings.maxBounces = options.maxBounces.value_or(settings.maxBounces);
     settings.seed = options.seed.value_or(settings.seed);
     applyShadingOptions(settings, options);
+    applyAdaptiveOptions(settings, options);
 }
 
 void applyProbeOption(Scene& scene, const SceneOptions& options)

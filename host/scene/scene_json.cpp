@@ -1,4 +1,5 @@
 // Scene files: JSON, described by scenes/schema.json and scenes/README.md.
+#include "scene/adaptive.h"
 #include "scene/camera.h"
 #include "scene/scene_reading.h"
 #include "util/gzip.h"
@@ -26,6 +27,7 @@ void readIntegrator(SceneReading& reading, const JsonNode& node)
     settings.spp = integrator.uint("samplesPerPixel", settings.spp, 1, MAX_SAMPLES);
     settings.seed = integrator.uint("seed", settings.seed, 0, 0xffffffffu);
     readShading(integrator, settings);
+    if (const JsonNode* adaptive = integrator.find("adaptive")) readAdaptive(reading.document, *adaptive, settings);
 }
 
 void checkTopLevelText(const JsonObject& file)

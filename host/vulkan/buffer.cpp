@@ -236,11 +236,11 @@ void recordReadBack(VkCommandBuffer commands, const Buffer& buffer, uint64_t byt
     recordBarrier(commands, TRANSFER_WRITE, HOST_READ);
 }
 
-void readBuffer(const Buffer& buffer, std::span<std::byte> data)
+void readBuffer(const Buffer& buffer, std::span<std::byte> data, uint64_t offset)
 {
     if (data.empty()) return;
     const std::byte* from = buffer.mapped ? buffer.mapped : buffer.staging->mapped;
-    std::memcpy(data.data(), from, data.size());
+    std::memcpy(data.data(), from + offset, data.size());
 }
 
 }  // namespace sahl

@@ -75,6 +75,6 @@ void writeBuffer(Context& context, Buffer& buffer, std::span<const std::byte> da
 /// At the end of a command buffer: makes what compute shaders wrote to the first `bytes` of a
 /// readBack buffer readable by readBuffer() after the commands have run.
 void recordReadBack(VkCommandBuffer commands, const Buffer& buffer, uint64_t bytes);
-void readBuffer(const Buffer& buffer, std::span<std::byte> data);
+void readBuffer(const Buffer& buffer, std::span<std::byte> data, uint64_t offset = 0);
 
 }  // namespace sahl

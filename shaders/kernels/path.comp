@@ -15,10 +15,6 @@ layout(std430, set = 0, binding = BINDING_PIXELS) buffer PixelsBlock
 {
     PixelBlock pixels[];
 };
-layout(std430, set = 0, binding = BINDING_SUSPENDED) buffer SuspendedBlock
-{
-    SuspendedPath suspended[];
-};
 #ifdef SAHL_FIRST_HITS
 layout(std430, set = 0, binding = BINDING_FIRST_HITS) buffer FirstHitsBlock
 {
@@ -31,34 +27,7 @@ layout(push_constant) uniform DispatchBlock
 };
 
 #include "pathtrace/pathtrace.glsl"
-
-void suspendPath(uint index, PathState path, Traversal walk)
-{
-    suspended[index].path = path;
-    suspended[index].traversal = walk;
-    suspended[index].indirectRays = tally.indirectRays;
-    suspended[index].shadowRays = tally.shadowRays;
-    suspended[index].boxTests = tally.boxTests;
-    suspended[index].primitiveTests = tally.primitiveTests;
-    suspended[index].bounces = tally.bounces;
-    uint i = 0u;
-    for (; i < walk.stackSize; i++) suspended[index].stack[i] = stack[i];
-    if (i != walk.stackSize) faults |= FAULT_LOOP_CUT;
-}
-
-void resumePath(uint index, out PathState path, out Traversal walk)
-{
-    path = suspended[index].path;
-    walk = suspended[index].traversal;
-    tally.indirectRays = suspended[index].indirectRays;
-    tally.shadowRays = suspended[index].shadowRays;
-    tally.boxTests = suspended[index].boxTests;
-    tally.primitiveTests = suspended[index].primitiveTests;
-    tally.bounces = suspended[index].bounces;
-    uint i = 0u;
-    for (; i < walk.stackSize; i++) stack[i] = suspended[index].stack[i];
-    if (i != walk.stackSize) faults |= FAULT_LOOP_CUT;
-}
+#include "kernels/suspend.glsl"
 
 void main()
 {

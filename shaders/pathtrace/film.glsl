@@ -2,9 +2,9 @@
 
 bool isRadiance(float x) { return isFiniteNumber(x) && !(x < 0.0f); }
 
-/// Adds the path's radiance to the block, in sample order. A sample that is negative or not finite
-/// counts as black and is counted.
-void addSample(PathState path, INOUT(PixelBlock) block)
+/// Adds the path's radiance to the block, in sample order, and returns what was added. A sample that is
+/// negative or not finite counts as black and is counted.
+vec3 addSample(PathState path, INOUT(PixelBlock) block)
 {
     vec3 L = flushed3(path.L);
     float y = luminance(L);
@@ -23,4 +23,5 @@ void addSample(PathState path, INOUT(PixelBlock) block)
     block.boxTests += tally.boxTests;
     block.primitiveTests += tally.primitiveTests;
     block.bounces += tally.bounces;
+    return L;
 }

@@ -110,7 +110,13 @@ TEST_F(DeviceTest, verifyFindsTheFirstPixelSampleAndBounceOfADifference)
         {
             inner->renderFirstHits(tile, pixels);
         }
+        std::unique_ptr<AdaptiveTile> beginAdaptive(const TileRequest& tile,
+                                                    const AdaptiveRule& rule) override
+        {
+            return inner->beginAdaptive(tile, rule);
+        }
         uint32_t maxTilePixels() const override { return inner->maxTilePixels(); }
+        uint64_t maxAdaptivePixels() const override { return inner->maxAdaptivePixels(); }
         DeviceStatistics statistics() const override { return inner->statistics(); }
     };
     PreparedScene prepared = prepareScene(builtInScene(smallPicture(48, 32, 8)), BvhBuild::sweep, 2);

@@ -202,6 +202,14 @@ TEST_F(FlippedProgram, verifyAsJson_tellsTheSame)
               3 * pixel);
 }
 
+TEST_F(FlippedProgram, verifyUnderAdaptiveSampling_findsTheDifference)
+{
+    RunResult result = verify({"--adaptive", "report", "--max-spp", "20"});
+    EXPECT_EQ(result.exitCode, 1) << result.out << result.err;
+    EXPECT_HAS(result.out, "DIFFERENT ");
+    EXPECT_HAS(result.out, "first at pixel (");
+}
+
 TEST_F(FlippedProgram, verifyQuietly_stillTellsTheDifference)
 {
     RunResult result = verify({"-q"});

@@ -169,7 +169,7 @@ std::set<std::string> documentedKeys()
 
 TEST_F(Pictures, statistics_haveTheDocumentedKeysAndNoOthers)
 {
-    ASSERT_EQ(render({"--stats", "stats.json"}).exitCode, 0);
+    ASSERT_EQ(render({"--stats", "stats.json", "--adaptive", "report", "--max-spp", "20"}).exitCode, 0);
     auto statistics = nlohmann::json::parse(textOf(folder / "stats.json"));
     std::set<std::string> keys;
     collectKeys(statistics, "", keys);

@@ -151,6 +151,7 @@ VKAPI_ATTR VkResult VKAPI_CALL changedMap(VkDevice device, VkDeviceMemory memory
 VKAPI_ATTR void VKAPI_CALL changedDispatch(VkCommandBuffer commands, uint32_t x, uint32_t y,
                                            uint32_t z)
 {
+    if (active) active->groupsDispatched += uint64_t{x} * y * z;
     if (!active || !active->dropDispatches) cmdDispatch(commands, x, y, z);
 }
 

@@ -31,6 +31,9 @@ public:
 
     /// vkCmdDispatch does nothing.
     bool dropDispatches = false;
+
+    /// Workgroups of all calls of vkCmdDispatch.
+    uint64_t groupsDispatched = 0;
 };
 
 /// The k-th call from now on, counted from 0, gives `result`. `reached` says whether it came to

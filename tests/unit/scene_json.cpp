@@ -247,6 +247,34 @@ bool has(const JsonNode& node, const std::string& key)
                        [&](const JsonKey& k) { return k.name == key; });
 }
 
+TEST(JsonScene, readsAdaptiveSampling)
+{
+    const AdaptiveRule none = loadJson(MINIMAL).settings.adaptive;
+    EXPECT_EQ(none.rule, ADAPTIVE_NONE);
+    const AdaptiveRule standard =
+        loadJson(R"({ "integrator": { "adaptive": { "rule": "report" } } })").settings.adaptive;
+    EXPECT_EQ(standard.rule, ADAPTIVE_REPORT);
+    EXPECT_EQ(standard.epsilon, 1e-4f);
+    EXPECT_EQ(standard.minSamples, 20u);
+    EXPECT_EQ(standard.maxSamples, 1000u);
+    const AdaptiveRule given =
+        loadJson(R"({ "integrator": { "adaptive": { "rule": "report", "epsilon": 0.5, "minSamples": 3,
+                     "maxSamples": 4 } } })")
+            .settings.adaptive;
+    EXPECT_EQ(given.epsilon, 0.5f);
+    EXPECT_EQ(given.minSamples, 3u);
+    EXPECT_EQ(given.maxSamples, 4u);
+}
+
+TEST(JsonScene, refusesAdaptiveSamplingWhoseMinimumIsAboveItsMaximum)
+{
+    EXPECT_CONTAINS(
+        errorOfJson(R"({ "integrator": { "adaptive": { "rule": "report", "maxSamples": 10 } } })"),
+        "scene.json:1:31: minSamples is 20, above maxSamples, which is 10");
+    EXPECT_CONTAINS(errorOfJson(R"({ "integrator": { "adaptive": { "threshold": 1 } } })"),
+                    "unknown key \"threshold\" in \"adaptive\" of the integrator; did you mean \"epsilon\"?");
+}
+
 JsonDocument readSchema()
 {
     const fs::path path = fs::path(__FILE__).parent_path() / "../../scenes/schema.json";
@@ -281,6 +309,7 @@ struct Sample {
 const Sample SAMPLES[] = {
     {"film", R"({ "film": { )", " } }"},
     {"integrator", R"({ "integrator": { )", " } }"},
+    {"adaptive", R"({ "integrator": { "adaptive": { )", " } } }"},
     {"camera", R"({ "camera": { "eye": [0,0,5], "lookAt": [0,0,0], )", " } }"},
     {"directionCamera", R"({ "camera": { "position": [0,0,5], "right": [1,0,0], "up": [0,1,0], )",
      " } }"},
@@ -306,6 +335,8 @@ std::string sceneWith(const Sample& sample, const std::string& key, const std::s
     if (sample.object == std::string("disk") && key != "radius") rest = R"(, "radius": 1)";
     if (sample.object == std::string("directionCamera") && key != "fovRad")
         rest = R"(, "fovRad": 1)";
+    if (sample.object == std::string("adaptive") && key != "rule")
+        rest = R"(, "rule": "report")";
     return sample.before + ("\"" + key + "\": " + value) + rest + sample.after;
 }
 

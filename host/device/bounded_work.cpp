@@ -1,0 +1,87 @@
+#include "device/bounded_work.h"
+
+#include "device/vulkan_limits.h"
+#include "util/error.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace sahl {
+
+namespace {
+
+constexpr uint32_t MIN_STEP_BUDGET = 64;     // a driver that cuts fewer steps than that is broken
+constexpr uint32_t MAX_CUT_ROUNDS = 64;      // at the smallest budget, without a finished sample
+constexpr double SUBMISSION_SECONDS = 0.25;  // aimed at: watchdogs of real GPUs bite after 2 s
+
+}  // namespace
+
+BoundedWork::BoundedWork(const PhysicalDevice& device, uint32_t stepBudget,
+                         DeviceStatistics& statistics)
+    : device_(device.name), statistics_(statistics)
+{
+    statistics_.stepBudget = stepBudget > 0 ? stepBudget : defaultStepBudget(device);
+    minStepBudget_ = std::min(MIN_STEP_BUDGET, statistics_.stepBudget);
+}
+
+void BoundedWork::finish(const BoundedTask& task, RoundState state,
+                         const std::function<RoundState(uint32_t dispatches)>& runRound)
+{
+    uint64_t idleSteps = 0;  // offered since the last sample was finished
+    cutRounds_ = 0;
+    while (state.samplesMissing > 0) {
+        if (state.faults != 0) handleFaults(task, state.faults);
+        uint32_t dispatches = state.samplesMissing;
+        uint64_t before = state.samplesDone;
+        state = runRound(dispatches);
+        statistics_.resumptions += dispatches;
+        if (state.samplesDone > before) cutRounds_ = 0;
+        bool progress = state.samplesDone > before || state.faults != 0;
+        idleSteps = progress ? 0 : idleSteps + uint64_t{dispatches} * statistics_.stepBudget;
+        if (idleSteps > task.stepsPerSample + statistics_.stepBudget)
+            throw Error(ErrorKind::deviceLost,
+                        fmt::format("{}: '{}' makes no progress: {} steps for each path and none "
+                                    "ended, though {} are enough for any; the driver does not "
+                                    "compute what it was given, try --device cpu",
+                                    task.name, device_, idleSteps, task.stepsPerSample));
+    }
+}
+
+/// Counts a retry and halves the step budget. Throws deviceLost when that does not help any more.
+void BoundedWork::handleFaults(const BoundedTask& task, uint32_t faults)
+{
+    if (faults & FAULT_STACK_OVERFLOW)
+        throw Error(ErrorKind::deviceLost,
+                    fmt::format("{}: on '{}' a traversal overflowed its stack of {} entries, which "
+                                "the tree's depth rules out; the driver does not compute what it "
+                                "was given, try --device cpu",
+                                task.name, device_, task.stackSize));
+    statistics_.retries++;
+    if (statistics_.stepBudget > minStepBudget_) {
+        statistics_.stepBudget = std::max(statistics_.stepBudget / 2, minStepBudget_);
+        return;
+    }
+    if (++cutRounds_ > MAX_CUT_ROUNDS)
+        throw Error(ErrorKind::deviceLost,
+                    fmt::format("{}: '{}' ends loops before their end even at {} steps a dispatch, "
+                                "so nothing can be computed on it; try --device cpu",
+                                task.name, device_, statistics_.stepBudget));
+}
+
+void BoundedWork::runInParts(uint64_t pixels, uint32_t dispatches,
+                             const std::function<void(uint32_t, bool, bool)>& submit)
+{
+    for (uint32_t done = 0; done < dispatches;) {
+        double fit =
+            secondsPerPixel_ > 0 ? SUBMISSION_SECONDS / (secondsPerPixel_ * double(pixels)) : 1;
+        auto count = static_cast<uint32_t>(std::clamp(fit, 1.0, double(dispatches - done)));
+        auto start = std::chrono::steady_clock::now();
+        submit(count, done == 0, done + count == dispatches);
+        std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        secondsPerPixel_ = seconds.count() / (double(pixels) * count);
+        done += count;
+    }
+    statistics_.dispatches += dispatches;
+}
+
+}  // namespace sahl

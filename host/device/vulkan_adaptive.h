@@ -1,0 +1,35 @@
+// Adaptive sampling on Vulkan: a tile's pixels, its queues and its film live on the device.
+#pragma once
+
+#include "device/bounded_work.h"
+#include "device/vulkan_scene.h"
+#include "vulkan/pipeline.h"
+
+namespace sahl {
+
+struct AdaptivePipelines {
+    ComputePipeline path;    ///< kernels/adaptive_path.comp
+    ComputePipeline pass;    ///< kernels/adaptive_pass.comp
+    uint32_t groupSize = 0;  ///< invocations of a workgroup
+};
+
+/// `path`: the pipeline of adaptive_path for the scene and stack in force.
+AdaptivePipelines makeAdaptivePipelines(Context& context, ComputePipeline path,
+                                        const std::array<uint32_t, 2>& group);
+
+/// What all tiles share of the device that makes them; must outlive them.
+struct AdaptiveHost {
+    Context& context;
+    AdaptivePipelines& pipelines;
+    const VulkanScene& scene;
+    const Buffer& suspended;  ///< room for a path of each pixel of a tile; free between two passes
+    BoundedWork& work;
+    DeviceStatistics& statistics;
+    uint32_t stackSize = 0;
+};
+
+std::unique_ptr<AdaptiveTile> makeVulkanAdaptiveTile(const AdaptiveHost& host,
+                                                     const TileRequest& tile,
+                                                     const AdaptiveRule& rule);
+
+}  // namespace sahl
