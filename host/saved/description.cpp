@@ -1,5 +1,6 @@
 #include "saved/description.h"
 
+#include "scene/adaptive.h"
 #include "scene/json_fields.h"
 #include "scene/phong.h"
 #include "scene/probe.h"
@@ -21,8 +22,9 @@ const KeySet DESCRIPTION = {
     {"settings", "camera", "probe", "background", "tree", "droppedTriangles"},
     {"settings", "camera", "probe", "tree", "droppedTriangles"}};
 const std::vector<std::string> SETTINGS_KEYS = {
-    "width",  "height", "samplesPerPixel", "maxBounces", "seed",   "integrator",
-    "jitter", "terms",  "shadows",         "normals",    "ambient"};
+    "width",  "height", "samplesPerPixel", "maxBounces", "seed",    "integrator",
+    "jitter", "terms",  "shadows",         "normals",    "ambient", "adaptive"};
+static_assert(sizeof(RenderSettings) == 60, "is the new setting saved, too?");
 const KeySet SETTINGS = {"", SETTINGS_KEYS, SETTINGS_KEYS};
 const KeySet CAMERA = {"",
                        {"eye", "lookAt", "up", "axes", "fovDeg", "fovHorizontal",
@@ -58,7 +60,12 @@ Json describe(const RenderSettings& settings)
             {"terms", terms},
             {"shadows", (settings.shading & SHADING_SHADOWS) != 0},
             {"normals", (settings.shading & SHADING_FLAT) != 0 ? "flat" : "interpolated"},
-            {"ambient", jsonOf(settings.ambient)}};
+            {"ambient", jsonOf(settings.ambient)},
+            {"adaptive",
+             {{"rule", adaptiveRuleName(settings.adaptive.rule)},
+              {"epsilon", double{settings.adaptive.epsilon}},
+              {"minSamples", settings.adaptive.minSamples},
+              {"maxSamples", settings.adaptive.maxSamples}}}};
 }
 
 Json describe(const CameraDescription& camera)
@@ -106,6 +113,7 @@ RenderSettings readSettings(const JsonObject& object)
     settings.integrator = phong ? INTEGRATOR_PHONG : INTEGRATOR_PATH;
     settings.jitter = object.boolean("jitter", true);
     readShading(object, settings);
+    readAdaptive(object.document(), object.at("adaptive"), settings);
     return settings;
 }
 

@@ -15,21 +15,23 @@ protected:
         const fs::path binary = folder.path / "x.sahl", json = folder.path / "x.json";
         writeSavedScene(original, binary);
         const PreparedScene saved = loadSavedScene(binary, {});
-        auto device = openFirstDevice();
-        auto cpu = makeCpuDevice({});
-        const Film expected = renderFilm(*cpu, original);
+        const Film expected = renderFilm(*cpu_, original);
         EXPECT_GT(expected.counters.boxTests, 0u);
-        EXPECT_TRUE(renderFilm(*cpu, saved) == expected);
-        EXPECT_TRUE(renderFilm(*device, saved) == expected);
+        EXPECT_TRUE(renderFilm(*cpu_, saved) == expected);
+        EXPECT_TRUE(renderFilm(*device_, saved) == expected);
         EXPECT_EQ(saved.bvh.statistics.primitivesSeen, original.bvh.statistics.primitivesSeen);
         if (!original.bvh.instances.empty()) return;  // JSON holds one tree
         writeTreeJson(original, json);
         const PreparedScene tree = loadTreeJson(json, {});
-        EXPECT_TRUE(renderFilm(*cpu, tree) == expected);
-        EXPECT_TRUE(renderFilm(*device, tree) == expected);
+        EXPECT_TRUE(renderFilm(*cpu_, tree) == expected);
+        EXPECT_TRUE(renderFilm(*device_, tree) == expected);
     }
 
     TemporaryFolder folder;
+
+private:
+    std::unique_ptr<Device> device_ = openFirstDevice();
+    std::unique_ptr<Device> cpu_ = makeCpuDevice({});
 };
 
 TEST_F(SavedScenes, ofEveryFeatureRenderToTheSameBits)

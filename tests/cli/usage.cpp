@@ -94,8 +94,8 @@ TEST(Usage, unknownOption_suggestsTheNearest)
 TEST(Usage, unknownCommand_suggestsTheNearest)
 {
     expectUsageError({"rendr", "x.json"}, "unknown command 'rendr'; did you mean render?");
-    expectUsageError({"sing"}, "unknown command 'sing'; choose render, tonemap, verify, devices or bench");
-    expectUsageError({"--"}, "a command is missing; choose render, tonemap, verify, devices or bench");
+    expectUsageError({"sing"}, "unknown command 'sing'; choose render, tonemap, verify, bvh, devices or bench");
+    expectUsageError({"--"}, "a command is missing; choose render, tonemap, verify, bvh, devices or bench");
 }
 
 TEST(Usage, missingAndExtraWords_areNamed)

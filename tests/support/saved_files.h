@@ -18,7 +18,10 @@ inline std::string richScene()
         "camera": {"eye": [0.5, 2, 6], "lookAt": [0, 0.5, 0], "fovDeg": 33.3,
                    "lensRadius": 0.02, "focusOn": "ball"},
         "film": {"width": 24, "height": 16},
-        "integrator": {"samplesPerPixel": 9, "maxBounces": 5, "seed": 7},
+        "integrator": {"samplesPerPixel": 9, "maxBounces": 5, "seed": 7,
+                       "ambient": [0.1, 0.2, 0.3], "terms": ["ambient", "specular"],
+                       "adaptive": {"rule": "none", "epsilon": 0.01, "minSamples": 3,
+                                    "maxSamples": 77}},
         "materials": {"clay": {"type": "lambert", "baseColor": [0.7, 0.4, 0.2]},
                       "glass": {"type": "dielectric", "eta": 1.52},
                       "gold": {"type": "conductor", "metal": "gold"},
@@ -86,6 +89,9 @@ inline void expectSameButNormals(const PreparedScene& a, const PreparedScene& b)
     EXPECT_EQ(a.scene.objectStarts, b.scene.objectStarts);
     EXPECT_EQ(a.scene.droppedTriangles, b.scene.droppedTriangles);
     EXPECT_EQ(a.scene.settings.spp, b.scene.settings.spp);
+    EXPECT_EQ(
+        std::memcmp(&a.scene.settings.adaptive, &b.scene.settings.adaptive, sizeof(AdaptiveRule)),
+        0);
     expectSameStatistics(a.bvh.statistics, b.bvh.statistics);
 
     ASSERT_EQ(p.primitives.size(), q.primitives.size());
