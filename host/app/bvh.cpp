@@ -33,7 +33,8 @@ SceneBytes bytesOf(const DeviceScene& scene)
 {
     return {scene.nodes.size_bytes(), scene.primitives.size_bytes(),
             scene.triangleNormals.size_bytes(), scene.probeTexels.size_bytes(),
-            scene.materials.size_bytes() + scene.lights.size_bytes()};
+            scene.materials.size_bytes() + scene.lights.size_bytes() +
+                scene.instances.size_bytes()};
 }
 
 double mebibytes(uint64_t bytes)

@@ -18,16 +18,6 @@ DeviceScene ownArrays(const Scene& scene, const Bvh& bvh)
     return view;
 }
 
-/// Largest coordinate at which a ray of the camera may start.
-double reachOf(const Camera& camera)
-{
-    const glm::dvec3 lens = glm::abs(glm::dvec3(camera.lensRight)) + glm::abs(glm::dvec3(camera.lensDown));
-    const glm::dvec3 across = glm::abs(glm::dvec3(camera.right)) + glm::abs(glm::dvec3(camera.down));
-    const bool parallel = camera.type == CAMERA_ORTHOGRAPHIC;
-    const glm::dvec3 p = glm::abs(glm::dvec3(camera.position)) + lens + (parallel ? across : glm::dvec3(0.0));
-    return std::max({p.x, p.y, p.z});
-}
-
 }  // namespace
 
 DeviceScene PreparedScene::deviceScene() const
@@ -49,6 +39,15 @@ DeviceScene PreparedScene::deviceScene() const
     view.frame.ambient = scene.settings.ambient;
     view.frame.shading = scene.settings.shading;
     return view;
+}
+
+double reachOf(const Camera& camera)
+{
+    const glm::dvec3 lens = glm::abs(glm::dvec3(camera.lensRight)) + glm::abs(glm::dvec3(camera.lensDown));
+    const glm::dvec3 across = glm::abs(glm::dvec3(camera.right)) + glm::abs(glm::dvec3(camera.down));
+    const bool parallel = camera.type == CAMERA_ORTHOGRAPHIC;
+    const glm::dvec3 p = glm::abs(glm::dvec3(camera.position)) + lens + (parallel ? across : glm::dvec3(0.0));
+    return std::max({p.x, p.y, p.z});
 }
 
 PreparedScene prepareScene(Scene scene, BvhBuild build, unsigned threads)

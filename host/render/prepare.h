@@ -25,6 +25,10 @@ struct PreparedScene {
     DeviceScene deviceScene() const;
 };
 
+/// Largest coordinate at which a ray of the camera may start [m]. The boxes of instances are made for
+/// rays from no farther away (bvh/instances.h).
+double reachOf(const Camera& camera);
+
 PreparedScene prepareScene(Scene scene, BvhBuild build, unsigned threads);
 
 }  // namespace sahl

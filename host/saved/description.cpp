@@ -174,6 +174,19 @@ void applySceneOptions(const SceneOptions& options, Scene& scene)
         scene.probe.filterMode = probeFilter(*options.probeFilter);
 }
 
+/// Boxes of instances hold for rays from no farther away than the saved camera; a picture of
+/// another shape can move the camera.
+void requireReach(const PreparedScene& prepared, const Camera& saved)
+{
+    const RenderSettings& settings = prepared.scene.settings;
+    if (prepared.deviceScene().instances.empty()) return;
+    if (reachOf(prepared.scene.camera) <= reachOf(saved)) return;
+    throw usageError(
+        "{}: a picture of {} x {} pixels moves the camera farther away than the tree of "
+        "this saved scene allows; save the original scene with that --width and --height",
+        prepared.scene.name, settings.width, settings.height);
+}
+
 }  // namespace
 
 Json describe(const PreparedScene& prepared)
@@ -212,13 +225,16 @@ void readDescription(const JsonDocument& document, const std::vector<std::string
     readTree(JsonObject(document, object.at("tree"), "the tree", TREE), prepared.bvh);
     scene.droppedTriangles =
         static_cast<uint64_t>(object.number("droppedTriangles", 0, {0, 9007199254740992.0}));
+    const RenderSettings saved = scene.settings;
     applySceneOptions(options, scene);
     checkPictureSize(scene.settings, scene.name);
     const JsonObject camera(document, object.at("camera"), "the camera", CAMERA);
     const CameraDescription description = readCameraDescription(camera);
     try {
         placeCamera(scene, description);
+        requireReach(prepared, makeCamera(description, saved.width, saved.height));
     } catch (const Error& error) {
+        if (error.kind != ErrorKind::badInput) throw;
         throw errorAt(document, camera.node(), error.what());
     }
 }

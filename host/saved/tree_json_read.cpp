@@ -75,11 +75,11 @@ public:
         sax_parse(begin, begin + text_.size());
         prepared_.bvh.nodes = std::move(tree_.bvh.nodes);
         prepared_.bvh.primitives = std::move(tree_.bvh.primitives);
-        prepared_.bvh.statistics.primitivesSeen = prepared_.bvh.primitives.size();
         prepared_.bvh.rootRef = tree_.bvh.rootRef;
         const BvhBuild build = prepared_.bvh.statistics.build;
         prepared_.bvh.statistics = tree_.bvh.statistics;
         prepared_.bvh.statistics.build = build;
+        prepared_.bvh.statistics.primitivesSeen = prepared_.bvh.primitives.size();
     }
 
     bool null() override { return wordOrNull(); }

@@ -134,9 +134,10 @@ void writeTreeJson(const PreparedScene& prepared, const fs::path& path)
 {
     const DeviceScene scene = prepared.deviceScene();
     if (!scene.instances.empty()) {
-        throw badInput("{}: it has {} instances, and JSON holds one tree; save it as .sahl, or write "
-                       "the shapes out where they are placed",
-                       prepared.scene.name, scene.instances.size());
+        throw badInput(
+            "{}: it has {} instances, and JSON holds one tree; save it as .sahl, or write "
+            "the shapes out where they are placed",
+            prepared.scene.name, scene.instances.size());
     }
     const std::string description =
         describeForTree(prepared, scene)

@@ -92,6 +92,9 @@ struct Scene {
 /// right angle (to 1e-4), or a lens has nothing to focus on.
 Camera makeCamera(const CameraDescription& description, uint32_t width, uint32_t height);
 
+/// Gives the scene the described camera, for its picture's size. Throws as makeCamera does.
+void placeCamera(Scene& scene, const CameraDescription& description);
+
 /// Box of everything in the scene, instances included; empty where there is nothing.
 Box extentOf(const Scene& scene);
 

@@ -14,15 +14,18 @@ protected:
     {
         const fs::path binary = folder.path / "x.sahl", json = folder.path / "x.json";
         writeSavedScene(original, binary);
-        writeTreeJson(original, json);
-        const PreparedScene saved = loadSavedScene(binary, {}), tree = loadTreeJson(json, {});
+        const PreparedScene saved = loadSavedScene(binary, {});
         auto device = openFirstDevice();
         auto cpu = makeCpuDevice({});
         const Film expected = renderFilm(*cpu, original);
         EXPECT_GT(expected.counters.boxTests, 0u);
         EXPECT_TRUE(renderFilm(*cpu, saved) == expected);
-        EXPECT_TRUE(renderFilm(*cpu, tree) == expected);
         EXPECT_TRUE(renderFilm(*device, saved) == expected);
+        EXPECT_EQ(saved.bvh.statistics.primitivesSeen, original.bvh.statistics.primitivesSeen);
+        if (!original.bvh.instances.empty()) return;  // JSON holds one tree
+        writeTreeJson(original, json);
+        const PreparedScene tree = loadTreeJson(json, {});
+        EXPECT_TRUE(renderFilm(*cpu, tree) == expected);
         EXPECT_TRUE(renderFilm(*device, tree) == expected);
     }
 

@@ -110,7 +110,7 @@ TEST_F(SavedFaults, aThousandTruncationsAndFlippedBitsAreRefused)
 
 TEST_F(SavedFaults, everyByteOfTheHeadCounts)
 {
-    const size_t head = sizeof(SavedHeader) + 8 * sizeof(SavedEntry);
+    const size_t head = sizeof(SavedHeader) + 9 * sizeof(SavedEntry);
     for (size_t at = 0; at < head; at++) {
         std::vector<uint8_t> bytes = whole;
         bytes[at] ^= 1;
@@ -203,7 +203,10 @@ TEST_F(SavedFaults, treesThatAreNoneAreRefused)
     EXPECT_CONTAINS(errorOfNode(3, [](BvhNode& n) { n.ref0 = 0; }), "it refers to node 0");
     EXPECT_CONTAINS(errorOfNode(0, [](BvhNode& n) { n.ref0 = 0; }), "it refers to node 0");
     EXPECT_CONTAINS(errorOfNode(1, [](BvhNode& n) { n.ref1 = 2; }), "it refers to node 2;");
-    EXPECT_CONTAINS(errorOfNode(0, [](BvhNode& n) { n.ref0 = 0x7fffffff; }), "2147483647");
+    EXPECT_CONTAINS(errorOfNode(0, [](BvhNode& n) { n.ref0 = 0x3fffffff; }), "node 1073741823");
+    EXPECT_CONTAINS(errorOfNode(0, [](BvhNode& n) { n.ref0 = REF_LEAVE; }), "instance 1073741823");
+    EXPECT_CONTAINS(errorOfNode(0, [](BvhNode& n) { n.ref0 = REF_INSTANCE; }),
+                    "instance 0; there are 0");
     EXPECT_CONTAINS(errorOfNode(2, [](BvhNode& n) { n.ref1 = REF_NONE; }), "there is nothing");
     EXPECT_CONTAINS(errorOfNode(0, [](BvhNode& n) { n.ref0 = REF_LEAF; }), "a leaf of ");
     EXPECT_CONTAINS(errorOfNode(0, [](BvhNode& n) { n.ref0 = 0xfffffff0; }),
@@ -247,6 +250,93 @@ TEST_F(SavedFaults, aTreeDeeperThanTheStackIsRefused)
                     "the tree is deeper than 64 nodes");
 }
 
+/// The same with instances: objects of one leaf and of a tree, the first placed twice.
+class SavedInstanceFaults : public SavedFaults {
+protected:
+    SavedInstanceFaults()
+    {
+        writeSavedScene(prepareText(R"({
+            "camera": {"eye": [0, 2, 6], "lookAt": [0, 0, 0]},
+            "groups": {"a": {"shapes": [{"type": "sphere"}]},
+                       "b": {"shapes": [{"type": "teapot", "subdivisions": 2}]}},
+            "shapes": [{"type": "sphere", "radius": 0.5},
+                       {"type": "instance", "of": "a", "transform": {"translate": [3, 0, 0]}},
+                       {"type": "instance", "of": "b"},
+                       {"type": "instance", "of": "a", "transform": {"scale": [1, 2, -1]}}],
+            "environment": {"builtin": "studio"}})"),
+                        path);
+        whole = readFile(path);
+    }
+
+    std::string errorOfInstance(const std::function<void(ObjectInstance&)>& alter)
+    {
+        return errorOfElement<ObjectInstance>("instances", 1, alter);
+    }
+};
+
+TEST_F(SavedInstanceFaults, instancesThatAreNoneAreRefused)
+{
+    EXPECT_EQ(errorOfBytes(whole), "");
+    EXPECT_CONTAINS(errorOfInstance([](ObjectInstance& o) { o.rootRef = 0; }), "instances");
+    EXPECT_CONTAINS(errorOfInstance([](ObjectInstance& o) { o.rootRef = REF_NONE; }), "instances");
+    EXPECT_CONTAINS(errorOfInstance([](ObjectInstance& o) { o.rootRef++; }), "instances");
+    EXPECT_CONTAINS(errorOfInstance([](ObjectInstance& o) { o.firstNumber++; }),
+                    "number 1 counts its primitives from");
+    EXPECT_CONTAINS(errorOfInstance([](ObjectInstance& o) { o.material = 77; }),
+                    "number 1 has a material or a number out of range");
+    EXPECT_CONTAINS(errorOfInstance([](ObjectInstance& o) { o.toObject1.y = INFINITY; }),
+                    "number 1 has a material or a number out of range");
+    EXPECT_CONTAINS(errorOfInstance([](ObjectInstance& o) { o.lo.x -= 1; }), "its box is not that");
+    EXPECT_CONTAINS(errorOfInstance([](ObjectInstance& o) { o.hi.x = NAN; }), "out of range");
+    auto errorOfNode = [&](uint ref) {
+        return errorOfElement<BvhNode>("nodes", 0, [ref](BvhNode& n) {
+            ((n.ref0 & REF_NOT_INNER) == REF_INSTANCE ? n.ref0 : n.ref1) = ref;
+        });
+    };
+    EXPECT_NE(errorOfNode(REF_INSTANCE | 3), "");
+    EXPECT_NE(errorOfNode(REF_LEAF), "");
+    EXPECT_NE(errorOfNode(REF_LEAVE), "");
+    // An instance inside of an object, where only the world has them.
+    EXPECT_CONTAINS(errorOfSections([](std::vector<OwnSection>& sections) {
+                        OwnSection& nodes = sectionNamed(sections, "nodes");
+                        const size_t last = nodes.bytes.size() / sizeof(BvhNode) - 1;
+                        BvhNode node = nodes.get<BvhNode>(last);
+                        node.ref1 = REF_INSTANCE;
+                        nodes.set(last, node);
+                    }),
+                    "an instance inside the object of another");
+    // One instance that the tree does not have.
+    EXPECT_CONTAINS(errorOfSections([](std::vector<OwnSection>& sections) {
+                        OwnSection& instances = sectionNamed(sections, "instances");
+                        const ObjectInstance first = instances.get<ObjectInstance>(0);
+                        instances.bytes.resize(instances.bytes.size() + sizeof(ObjectInstance));
+                        instances.set(3, first);
+                    }),
+                    "the tree has 3 of 4");
+}
+
+TEST_F(SavedInstanceFaults, aThousandTruncationsAndFlippedBitsAreRefused)
+{
+    Random random(2027);
+    for (int i = 0; i < 1000; i++) {
+        std::vector<uint8_t> bytes = whole;
+        const size_t at = random.bits() % whole.size();
+        if (i % 2 == 0) {
+            bytes.resize(at);
+        } else {
+            bytes[at] = static_cast<uint8_t>(bytes[at] ^ (1u << random.below(8)));
+        }
+        ASSERT_NE(errorOfBytes(bytes), "") << i << " at " << at;
+    }
+}
+
+TEST_F(SavedInstanceFaults, jsonHoldsOneTreeAndSaysSo)
+{
+    const PreparedScene scene = loadSavedScene(path, {});
+    EXPECT_CONTAINS(badInputOf([&] { writeTreeJson(scene, folder.path / "x.json"); }),
+                    "it has 3 instances, and JSON holds one tree; save it as .sahl");
+}
+
 TEST_F(SavedFaults, indicesOutOfRangeAreRefused)
 {
     auto errorOfPrimitive = [&](std::function<void(Primitive&)> alter) {
@@ -277,6 +367,60 @@ TEST_F(SavedFaults, indicesOutOfRangeAreRefused)
     EXPECT_CONTAINS(errorOfDescription("\"width\":256,\"height\":128",
                                        "\"width\":4294967295,\"height\":4294967295"),
                     "a probe of 4294967295 x 4294967295");
+}
+
+/// The same with a scene of instances.
+class SavedInstanceFaults : public SavedFaults {
+protected:
+    SavedInstanceFaults()
+    {
+        scene = prepareScene(loadScene(instancesScene(), {}), BvhBuild::sweep, 2);
+        writeSavedScene(scene, path);
+        whole = readFile(path);
+    }
+
+    std::string errorOfInstance(size_t index, const std::function<void(ObjectInstance&)>& alter)
+    {
+        return errorOfElement<ObjectInstance>("instances", index, alter);
+    }
+
+    PreparedScene scene;
+};
+
+TEST_F(SavedInstanceFaults, instancesThatPointAnywhereElseAreRefused)
+{
+    ASSERT_EQ(errorOfBytes(whole), "");
+    for (const uint root : {0u, 1u, 0x3fffffffu, REF_INSTANCE, REF_LEAVE, REF_LEAF, REF_NONE}) {
+        EXPECT_CONTAINS(errorOfInstance(1, [&](ObjectInstance& o) { o.rootRef = root; }),
+                        "x.sahl: ")
+            << root;
+    }
+    EXPECT_CONTAINS(errorOfInstance(1, [](ObjectInstance& o) { o.material = 99; }),
+                    "section 'instances': number 1 has a material");
+    EXPECT_CONTAINS(errorOfInstance(0, [](ObjectInstance& o) { o.firstNumber++; }),
+                    "number 0 counts its primitives from");
+    EXPECT_CONTAINS(errorOfInstance(2, [](ObjectInstance& o) { o.toObject1.y = std::nanf(""); }),
+                    "section 'instances': number 2");
+    EXPECT_CONTAINS(errorOfInstance(2, [](ObjectInstance& o) { std::swap(o.lo, o.hi); }),
+                    "section 'instances': number 2");
+    EXPECT_CONTAINS(errorOfInstance(2, [](ObjectInstance& o) { o.hi.x += 1; }), "its box is not");
+}
+
+TEST_F(SavedInstanceFaults, instancesInsideInstancesAreRefused)
+{
+    // A walk knows one way back only.
+    const DeviceScene arrays = scene.deviceScene();
+    const auto placed =
+        std::find_if(arrays.instances.begin(), arrays.instances.end(),
+                     [](const ObjectInstance& o) { return o.rootRef < REF_INSTANCE; });
+    ASSERT_NE(placed, arrays.instances.end());
+    EXPECT_CONTAINS(errorOfElement<BvhNode>("nodes", placed->rootRef,
+                                            [](BvhNode& n) { n.ref0 = REF_INSTANCE; }),
+                    "an instance inside the object of another");
+    EXPECT_CONTAINS(errorOfElement<BvhNode>("nodes", 0, [](BvhNode& n) { n.ref0 = REF_INSTANCE; }),
+                    "x.sahl: ");
+    EXPECT_CONTAINS(errorOfElement<BvhNode>("nodes", 0, [](BvhNode& n) { n.ref0 = REF_LEAVE; }),
+                    "instance 1073741823; there are");
 }
 
 TEST_F(SavedFaults, numbersThatAreNoneAreRefused)
@@ -323,34 +467,51 @@ TEST_F(SavedFaults, descriptionsThatDoNotFitAreRefused)
                     "section 'scene': it has 17000000 bytes");
 }
 
-TEST_F(SavedFaults, hostileContentsUnderRightHashesAreRefusedOrRender)
+/// Loads files with a few words of one section replaced, hashes right; renders what is not refused.
+/// Returns how many were rendered.
+int renderHostileVariants(const fs::path& path, uint64_t seed, int count)
 {
-    Random random(984);
-    writeFileAtomically(path, whole);
+    Random random(seed);
     const std::vector<OwnSection> good = sectionsOf(path);
     const std::unique_ptr<Device> device = makeCpuDevice({});
     int rendered = 0;
-    for (int i = 0; i < 800; i++) {
+    for (int i = 0; i < count; i++) {
         std::vector<OwnSection> sections = good;
-        OwnSection& section = sections[1 + random.below(static_cast<uint>(sections.size() - 1))];
-        const uint words = static_cast<uint>(section.bytes.size() / 4);
-        for (uint k = 0; k <= random.below(2); k++) {
+        OwnSection* section = nullptr;
+        while (section == nullptr || section->name == "scene" || section->bytes.empty()) {
+            section = &sections[random.below(static_cast<uint>(sections.size()))];
+        }
+        const uint words = static_cast<uint>(section->bytes.size() / 4);
+        for (uint k = random.below(2) + 1; k > 0; k--) {
             const uint32_t hard[] = {0,          1,
                                      0x7f800000, 0x7fc00000,
                                      0xffffffff, 0x80000000,
                                      0x7f7fffff, 0x00000001,
                                      0x3f800000, static_cast<uint32_t>(random.bits())};
-            section.set<uint32_t>(random.below(words), hard[random.below(std::size(hard))]);
+            section->set<uint32_t>(random.below(words), hard[random.below(std::size(hard))]);
         }
         writeSections(path, sections);
-        SceneOptions options = smallPicture(6, 4, 2);
         PreparedScene prepared;
+        const SceneOptions options = smallPicture(6, 4, 2);
         if (!badInputOf([&] { prepared = loadSavedScene(path, options); }).empty()) continue;
         renderFilm(*device, prepared);
         rendered++;
     }
-    EXPECT_GT(rendered, 40);  // else nothing was shown about what passes
-    EXPECT_LT(rendered, 500);
+    return rendered;
+}
+
+TEST_F(SavedFaults, hostileContentsUnderRightHashesAreRefusedOrRender)
+{
+    const int rendered = renderHostileVariants(path, 984, 600);
+    EXPECT_GT(rendered, 20);  // else nothing was shown about what passes
+    EXPECT_LT(rendered, 400);
+}
+
+TEST_F(SavedInstanceFaults, hostileContentsUnderRightHashesAreRefusedOrRender)
+{
+    const int rendered = renderHostileVariants(path, 985, 400);
+    EXPECT_GT(rendered, 20);
+    EXPECT_LT(rendered, 300);
 }
 
 }  // namespace

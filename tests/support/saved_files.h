@@ -42,6 +42,12 @@ inline std::string richScene()
         "background": {"radiance": [0.1, 0.2, 0.3]}})";
 }
 
+/// Objects placed several times, nested, mirrored, repainted.
+inline fs::path instancesScene()
+{
+    return fs::path(__FILE__).parent_path() / "../scenes/instances.json";
+}
+
 inline PreparedScene prepareText(const std::string& text, const SceneOptions& options = {})
 {
     return prepareScene(loadJson(text, options), BvhBuild::automatic, 2);
@@ -61,6 +67,7 @@ inline void expectSameStatistics(const BvhStatistics& a, const BvhStatistics& b)
     EXPECT_EQ(a.depth, b.depth);
     EXPECT_EQ(a.largestLeaf, b.largestLeaf);
     EXPECT_EQ(a.sahCost, b.sahCost);
+    EXPECT_EQ(a.primitivesSeen, b.primitivesSeen);
     EXPECT_EQ(a.build, b.build);
 }
 
@@ -72,6 +79,7 @@ inline void expectSameButNormals(const PreparedScene& a, const PreparedScene& b)
     EXPECT_TRUE(sameBytes(p.materials, q.materials));
     EXPECT_TRUE(sameBytes(p.lights, q.lights));
     EXPECT_TRUE(sameBytes(p.probeTexels, q.probeTexels));
+    EXPECT_TRUE(sameBytes(p.instances, q.instances));
     EXPECT_EQ(std::memcmp(&p.frame, &q.frame, sizeof(Frame)), 0);
     EXPECT_EQ(p.treeDepth, q.treeDepth);
     EXPECT_EQ(a.scene.materialNames, b.scene.materialNames);

@@ -44,6 +44,30 @@ TEST_F(SavedSceneTest, arraysLieInTheFile)
     EXPECT_TRUE(liesInFile(scene.probeTexels));
 }
 
+TEST_F(SavedSceneTest, instancesAreKeptToTheBit)
+{
+    const PreparedScene original =
+        prepareScene(loadScene(instancesScene(), {}), BvhBuild::sweep, 2);
+    ASSERT_GT(original.bvh.instances.size(), 8u);
+    expectSame(savedAndLoaded(original), original);
+}
+
+TEST_F(SavedSceneTest, instancesAreNotSeenFromFartherAwayThanTheirBoxesHoldFor)
+{
+    const std::string text = R"({"film": {"width": 30, "height": 30},
+        "groups": {"ball": {"shapes": [{"type": "sphere", "radius": 1}]}},
+        "shapes": [{"type": "instance", "of": "ball"}], "environment": {"builtin": "studio"}})";
+    writeSavedScene(prepareText(text), path);
+    EXPECT_NO_THROW(loadSavedScene(path, smallPicture(60, 60, 1)));
+    try {
+        loadSavedScene(path, smallPicture(10, 60, 1));  // narrow: the framing camera moves back
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind, ErrorKind::usage);
+        EXPECT_CONTAINS(error.what(), "a picture of 10 x 60 pixels moves the camera farther away");
+    }
+}
+
 TEST_F(SavedSceneTest, movedScenesStayWhole)
 {
     const PreparedScene original = prepareText(richScene());

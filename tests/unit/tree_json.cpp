@@ -99,6 +99,13 @@ TEST_F(TreeJsonTest, nothingAndASingleLeafAreTrees)
     }
 }
 
+TEST_F(TreeJsonTest, ofScenesWithInstances_isRefusedRatherThanHalfWritten)
+{
+    const PreparedScene scene = prepareScene(loadScene(instancesScene(), {}), BvhBuild::sweep, 2);
+    EXPECT_CONTAINS(badInputOf([&] { writeTreeJson(scene, path); }), "JSON holds one tree");
+    EXPECT_FALSE(fs::exists(path));
+}
+
 TEST_F(TreeJsonTest, everyFloatComesBackAsItWas)
 {
     // Random bits, and what is known to be hard: halfway cases, powers of two, denormals, zeros.
