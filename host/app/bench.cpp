@@ -85,7 +85,7 @@ BenchRow measure(const BenchScene& described, const fs::path& mesh, const BenchO
     return {&described,
             mesh.string(),
             tree.innerNodes + tree.leaves,
-            prepared.bvh.primitives.size(),
+            tree.primitivesSeen,
             prepared.scene.droppedTriangles,
             counters.cameraRays + counters.indirectRays + counters.shadowRays,
             counters.boxTests / 2,

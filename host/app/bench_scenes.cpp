@@ -1,5 +1,6 @@
 #include "app/bench_scenes.h"
 
+#include "app/bench_bunnies.h"
 #include "scene/primitives.h"
 #include "scene/probe.h"
 
@@ -35,6 +36,25 @@ const std::vector<BenchScene>& benchScenes()
          .wattage = 200,
          .floor = 0,
          .report = ReportRow{78039, 66454, 44084644, 7376469, 43, 37}},
+        {.name = "20 bunnies",
+         .meshes = {"meshes/miro/bunny.obj", "meshes/bunny.obj"},
+         .eye = {0, 5, 15},
+         .lookAt = {0, 0, 0},
+         .fovDeg = 45,
+         .light = {10, 20, 10},
+         .wattage = 1000,
+         .floor = 100,
+         .instanced = true,
+         .report = {}},
+        {.name = "dragon",
+         .meshes = {"meshes/dragon_vrip.ply.gz", "meshes/dragon.ply.gz"},
+         .eye = {0, 0.15, 0.35},
+         .lookAt = {0, 0.12, 0},
+         .fovDeg = 45,
+         .light = {0.25f, 0.5f, 0.25f},
+         .wattage = 0.6f,
+         .floor = 0,
+         .report = {}},
     };
     return scenes;
 }
@@ -72,6 +92,23 @@ Scene builtInTeapot(uint32_t size)
     return scene;
 }
 
+/// Turns the scene's primitives into 20 instances of one object.
+void placeBunnies(Scene& scene)
+{
+    scene.objects = {std::move(scene.primitives)};
+    scene.primitives = {};
+    scene.objectStarts = {};
+    for (const auto& m : BUNNIES) {
+        Placement placement;  // glm's matrices are arrays of columns
+        for (int row = 0; row < 3; row++) {
+            for (int column = 0; column < 3; column++)
+                placement.linear[column][row] = m[4 * row + column];
+            placement.translation[row] = m[4 * row + 3];
+        }
+        scene.instances.push_back(placement);
+    }
+}
+
 Light pointLight(const vec3& position, float intensity)
 {
     Light light = {};
@@ -94,6 +131,7 @@ Scene makeBenchScene(const BenchScene& described, const fs::path& mesh, uint32_t
     scene.settings.jitter = false;
     const uint32_t white = addMaterial(scene, "white", vec3(1.0f));
     for (Primitive& primitive : scene.primitives) primitive.material = white;
+    if (described.instanced) placeBunnies(scene);
     if (described.floor > 0) addFloor(scene, described.floor, white);
     setProbe(scene, {1, 1, {0, 0, 0}}, PROBE_LATLONG, FILTER_NEAREST, "black");
     scene.lights = {pointLight(described.light, described.wattage)};

@@ -27,7 +27,6 @@ struct BenchScene {
     float wattage;           ///< radiant intensity of the light [W/sr]
     float floor;             ///< distance of the floor's corners from the middle [m]
     bool instanced = false;  ///< 20 instances of the mesh rather than one
-    double scale = 1;        ///< of the mesh
     std::optional<ReportRow> report;
 };
 
