@@ -59,14 +59,14 @@ void addAdaptiveOptions(CLI::App& command, SceneOptions& scene)
     command
         .add_option_function<std::string>(
             "--epsilon", setEpsilon,
-            withDefault("of report: movement of the mean [W m^-2 sr^-1]", "the scene's, else 1e-4"))
+            withDefault("of report: movement of the mean", "the scene's, else 1e-4"))
         ->type_name("X")
         ->group("Picture");
     addNumber(command, "--min-spp", scene.minSpp, {1, 1 << 24},
-              "adaptive: samples before a pixel may stop", "the scene's, else 20")
+              "adaptive: least samples", "the scene's, else 20")
         ->group("Picture");
     addNumber(command, "--max-spp", scene.maxSpp, {1, 1 << 24},
-              "adaptive: samples at which it stops", "the scene's, else 1000")
+              "adaptive: most samples", "the scene's, else 1000")
         ->group("Picture");
 }
 

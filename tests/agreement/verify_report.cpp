@@ -70,7 +70,6 @@ TEST_P(VerifyReport, hasNoDifferingBit)
     const std::string text = textOf(sourceFolder() / "scenes/report" / GetParam());
     SceneOptions options;
     options.width = options.height = 32;
-    options.spp = 2;
     const fs::path meshes = folderWith(meshesOf(text));
     if (meshes.empty()) GTEST_SKIP() << GetParam() << " needs " << meshesOf(text).front();
 
@@ -80,13 +79,20 @@ TEST_P(VerifyReport, hasNoDifferingBit)
         placed.replace(at, FETCHED.size(), fs::canonical(meshes).string() + "/");
     }
     options.allowedPaths = {meshes};
+    const uint32_t spp = 2;
+    const bool adaptive = text.find("\"adaptive\"") != std::string::npos;
+    (adaptive ? options.maxSpp : options.spp) = spp;
+    if (adaptive) options.minSpp = 1;
     files.write("scene.json", placed);
     const PreparedScene prepared =
         prepareScene(files.load("scene.json", options), BvhBuild::automatic, 2);
     auto device = openFirstDevice();
     auto cpu = makeCpuDevice({});
+    const DeviceScene scene = prepared.deviceScene();
     const VerifyResult result =
-        verifyDevice(*device, *cpu, prepared.deviceScene(), *options.spp, 0, [](double) {});
+        adaptive ? verifyAdaptive(*device, *cpu, scene, prepared.scene.settings.adaptive, 0,
+                                  [](double) {})
+                 : verifyDevice(*device, *cpu, scene, spp, 0, [](double) {});
     EXPECT_TRUE(result.equal()) << result.differingPixels << " pixels differ";
     EXPECT_EQ(result.differingFilmBits, 0u);
     const Counters& counters = result.deviceFilm.counters;

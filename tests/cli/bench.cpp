@@ -51,7 +51,7 @@ TEST_F(Bench, aMeshOfTheReportsSize_getsTheReportsLineAndRatios)
     writeText(folder / "assets/meshes/teapot.obj", obj);
     RunResult result = bench({"--assets", "assets", "--json", "bench.json"});
     ASSERT_EQ(result.exitCode, 0) << result.err;
-    EXPECT_HAS(result.out, "  report           695       577     5845260     1600870");
+    EXPECT_HAS(result.out, "  report         695       577     5845260     1600870");
     const nlohmann::json row = table()["rows"][0];
     EXPECT_EQ(row["primitives"], 577);
     EXPECT_EQ(row["mesh"], "assets/meshes/teapot.obj");

@@ -43,24 +43,25 @@ protected:
 
 TEST_F(DeviceFaults, outOfMemoryAtAnyCall_isAnErrorAndLeavesNothingBehind)
 {
-    for (VkResult result : {VK_ERROR_OUT_OF_DEVICE_MEMORY, VK_ERROR_OUT_OF_HOST_MEMORY}) {
-        bool reached = true;
-        uint64_t calls = 0;
-        for (; reached; calls++) {
-            FailAt failure = {calls, result, ""};
-            hooks_.onCall = [&](const std::string& name) { return failure(name); };
-            hooks_.discreteMemory = calls % 2 == 1;  // with staging every other time
-            try {
-                openAndRender(torus_);
-                EXPECT_FALSE(failure.reached()) << failure.name << " failed in silence";
-            } catch (const Error& error) {
-                EXPECT_EQ(error.kind, ErrorKind::deviceLost) << failure.name;
-                expectMentions(error, {"out of", "memory", "--device cpu"});
-            }
-            reached = failure.reached();
+    bool reached = true;
+    uint64_t calls = 0;
+    for (; reached; calls++) {
+        // Either kind of memory, with staging every other time
+        const VkResult result =
+            calls / 2 % 2 == 0 ? VK_ERROR_OUT_OF_DEVICE_MEMORY : VK_ERROR_OUT_OF_HOST_MEMORY;
+        FailAt failure = {calls, result, ""};
+        hooks_.onCall = [&](const std::string& name) { return failure(name); };
+        hooks_.discreteMemory = calls % 2 == 1;
+        try {
+            openAndRender(torus_);
+            EXPECT_FALSE(failure.reached()) << failure.name << " failed in silence";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind, ErrorKind::deviceLost) << failure.name;
+            expectMentions(error, {"out of", "memory", "--device cpu"});
         }
-        EXPECT_GT(calls, 50u);
+        reached = failure.reached();
     }
+    EXPECT_GT(calls, 50u);
 }
 
 TEST_F(DeviceFaults, allocationFails_saysHowMuchWasNeededAndForWhat)

@@ -98,7 +98,7 @@ def arguments_of(setting, step, folder, use_own_teapot):
         for directory in allowed:
             line += ["--allow-path", str(directory)]
         spp = min(step.spp or QUICK_SPP, QUICK_SPP) if setting.quick else step.spp
-        if spp:
+        if spp and "--max-spp" not in step.quick:  # adaptive sampling has bounds of its own
             line += ["--spp", str(spp)]
         if setting.quick:
             line += ["--width", str(QUICK_SIZE), "--height", str(QUICK_SIZE)]
