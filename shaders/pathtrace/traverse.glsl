@@ -160,12 +160,16 @@ void visitPrimitive(WalkRay ray, uint slot, INOUT(Traversal) walk)
     primitiveBox(shape, lo, hi);
     float entry;
     if (!intersectBox(ray.boxes, lo, hi, walk.tHit, entry)) return;
-    t = max2(max2(t, entry), ray.entry);
-    uint number = ray.firstNumber + shape.number;
+    t = max2(t, entry);
+    uint number = shape.number;
+    if (HAS_INSTANCES) {
+        t = max2(t, ray.entry);
+        number += ray.firstNumber;
+    }
     if (t < walk.tHit || (t == walk.tHit && number < walk.number)) {
         walk.slot = slot;
         walk.number = number;
-        walk.instance = walk.inside;
+        if (HAS_INSTANCES) walk.instance = walk.inside;
         walk.tHit = t;
         walk.b1 = b1;
         walk.b2 = b2;
