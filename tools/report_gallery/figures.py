@@ -112,7 +112,7 @@ FIGURES = [
            [Step("bench", "report", ["report", "--json", "@bench.json"], quick=["--size", "32"])], []),
     Figure(12, "Shadow rays",
            "A light to the right, a wall behind. Without shadow rays everything that faces the light is lit; "
-           "with them spheres throw shadows onto the wall, and the teapot's neck one onto its body.",
+           "with them spheres throw shadows onto the wall, and the teapot's spout one onto its body.",
            [render("off", "fig12/shadows.json", "--shadows", "off", "--tone-map", "exposure", "--gamma", "1.8",
                    "-o", "@off.png"),
             render("on", "fig12/shadows.json", "--shadows", "on", "--tone-map", "exposure", "--gamma", "1.8",
