@@ -28,7 +28,7 @@ std::vector<std::string> makeNames()
 {
     std::vector<std::string> names;
     for (const char* half : {"A", "B"}) {
-        for (const char* sum : {"red", "green", "blue", "y2"}) {
+        for (const char* sum : {"red", "green", "blue", "squares"}) {
             for (size_t word = 0; word < WORDS; word++)
                 names.push_back(fmt::format("film.{}.{}{}", half, sum, word));
         }

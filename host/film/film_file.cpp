@@ -52,19 +52,19 @@ std::optional<uint64_t> numberIn(std::string_view text, int base = 10)
     return number;
 }
 
-std::optional<Counters> parseCounters(std::string_view text)
+/// What countersText() wrote; nothing for any other text.
+std::optional<Counters> parseCounters(const std::string& text)
 {
     Counters counters;
+    std::string_view rest = text;
     for (const NamedCounter& counter : COUNTERS) {
-        const std::string_view entry = text.substr(0, text.find(' '));
-        text.remove_prefix(std::min(text.size(), entry.size() + 1));
-        const std::string start = std::string(counter.name) + "=";
-        if (!entry.starts_with(start)) return {};
-        const auto number = numberIn(entry.substr(start.size()));
+        const std::string_view entry = rest.substr(0, rest.find(' '));
+        rest.remove_prefix(std::min(rest.size(), entry.size() + 1));
+        const auto number = numberIn(entry.substr(std::min(entry.size(), entry.find('=') + 1)));
         if (!number) return {};
         counters.*counter.value = *number;
     }
-    if (!text.empty()) return {};
+    if (countersText(counters) != text) return {};
     return counters;
 }
 
