@@ -219,7 +219,6 @@ TEST_F(Merge, unequalParts_areRefusedByFileAttributeAndBothValues)
         {{"--width", "18"},
          "b.exr: has 18 x 12 pixels at 0,0 of 18 x 12, a.exr has 16 x 12 pixels at 0,0 of 16"},
         {{"--crop", "0,0,4,4"}, "b.exr: has 4 x 4 pixels at 0,0 of 16 x 12, a.exr has 16 x 12"},
-        {{"--bvh-build", "binned"}, "sahl.treeHash is "},
         {{"--aovs"},
          "b.exr: has the channel albedo.B, a.exr has not; render all parts with --aovs, or none"},
     };
