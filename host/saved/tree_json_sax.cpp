@@ -1,0 +1,294 @@
+#include "saved/tree_json_sax.h"
+
+#include "scene/json_document.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+
+namespace sahl {
+
+namespace {
+
+constexpr uint64_t TREE_VERSION = 1;
+constexpr const char* KEYS[] = {"sahlTree", "scene", "texels", "root"};
+
+/// The text for the parser, which tells how far it got.
+struct Cursor {
+    using iterator_category = std::input_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char*;
+    using reference = const char&;
+
+    const char* at;
+    size_t* consumed;
+
+    reference operator*() const { return *at; }
+    Cursor& operator++()
+    {
+        ++at;
+        ++*consumed;
+        return *this;
+    }
+    bool operator==(const Cursor& other) const { return at == other.at; }
+    bool operator!=(const Cursor& other) const { return at != other.at; }
+};
+
+}  // namespace
+
+TreeEvents::TreeEvents(const std::string& file, std::string_view text, ReadScene readScene,
+                       PreparedScene& prepared)
+    : file_(file), text_(text), readScene_(std::move(readScene)), prepared_(prepared)
+{
+}
+
+void TreeEvents::read()
+{
+    const char* begin = text_.data();
+    nlohmann::json::sax_parse(Cursor{begin, &consumed_}, Cursor{begin + text_.size(), &consumed_},
+                              this);
+    const BvhBuild build = prepared_.bvh.statistics.build;
+    prepared_.bvh = std::move(tree_.bvh);
+    prepared_.bvh.statistics.build = build;
+    prepared_.bvh.statistics.primitivesSeen = prepared_.bvh.primitives.size();
+}
+
+std::string TreeEvents::where(size_t offset) const
+{
+    const std::string_view before = text_.substr(0, std::min(offset, text_.size()));
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const size_t lineStart = before.rfind('\n');
+    return fmt::format("{}:{}:{}", file_, line,
+                       before.size() - (lineStart == std::string::npos ? 0 : lineStart + 1) + 1);
+}
+
+Error TreeEvents::wrong(const std::string& finding) const
+{
+    return badInput("{}: {}; docs/saved_scenes.md describes the format",
+                    where(consumed_ > 0 ? consumed_ - 1 : 0), finding);
+}
+
+template <class Action>
+bool TreeEvents::placed(Action action) const
+{
+    try {
+        action();
+    } catch (const Error& error) {
+        throw wrong(error.what());
+    }
+    return true;
+}
+
+/// Inside the object "scene", whose values are looked at later.
+bool TreeEvents::isWithinScene() const
+{
+    if (part_ != Part::scene) return false;
+    if (depth_ == 0) throw wrong("\"scene\" must be an object");
+    return true;
+}
+
+bool TreeEvents::wordOrNull() const
+{
+    if (isWithinScene()) return true;
+    throw wrong("a word is out of place");
+}
+
+bool TreeEvents::descend()
+{
+    if (depth_ == 0) sceneBegin_ = consumed_ - 1;
+    if (depth_ == MAX_JSON_DEPTH) {
+        throw wrong(fmt::format("nested deeper than {} levels", MAX_JSON_DEPTH));
+    }
+    depth_++;
+    return true;
+}
+
+bool TreeEvents::ascend()
+{
+    depth_--;
+    if (depth_ > 0) return true;
+    if (consumed_ > MAX_JSON_BYTES) {
+        throw wrong(fmt::format("\"scene\" ends behind the first {} bytes", MAX_JSON_BYTES));
+    }
+    part_ = Part::file;
+    readScene_(sceneBegin_, consumed_);
+    return true;
+}
+
+bool TreeEvents::null()
+{
+    return wordOrNull();
+}
+
+bool TreeEvents::boolean(bool)
+{
+    return wordOrNull();
+}
+
+bool TreeEvents::number_integer(number_integer_t value)
+{
+    return value < 0 ? real(static_cast<float>(value))
+                     : number_unsigned(static_cast<number_unsigned_t>(value));
+}
+
+bool TreeEvents::number_unsigned(number_unsigned_t value)
+{
+    if (isWithinScene()) return true;
+    if (inLeaf_) return placed([&] { leaf_.whole(value); });
+    if (part_ != Part::file) return real(static_cast<float>(value));
+    if (keysRead_ == 1 && value == TREE_VERSION) return true;
+    throw wrong(fmt::format("version {} of the format; this program reads version {}", value,
+                            TREE_VERSION));
+}
+
+bool TreeEvents::number_float(number_float_t value, const string_t& text)
+{
+    float number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error == std::errc::result_out_of_range) {
+        if (std::abs(value) > 1) throw wrong("\"" + text + "\" is beyond the range of numbers");
+        number = 0;
+    }
+    return real(number);
+}
+
+bool TreeEvents::real(float value)
+{
+    if (isWithinScene()) return true;
+    if (inLeaf_) return placed([&] { leaf_.real(value); });
+    if (part_ != Part::texels || depth_ != 2) throw wrong("a number is out of place");
+    if (components_ == 3) throw wrong("a texel of more than 3 numbers");
+    texel_[components_++] = value;
+    return true;
+}
+
+bool TreeEvents::string(string_t& value)
+{
+    if (isWithinScene()) return true;
+    if (!inLeaf_) throw wrong("a text is out of place");
+    return placed([&] { leaf_.text(value); });
+}
+
+bool TreeEvents::binary(binary_t&)
+{
+    return false;  // not part of JSON text
+}
+
+bool TreeEvents::start_object(std::size_t)
+{
+    if (part_ == Part::scene) return descend();
+    if (part_ == Part::file && keysRead_ == 0 && !fileOpen_) {
+        fileOpen_ = true;
+        return true;
+    }
+    if (part_ != Part::root || inLeaf_ || groups_ == 0) throw wrong("an object is out of place");
+    leaf_ = {};
+    inLeaf_ = true;
+    return true;
+}
+
+bool TreeEvents::end_object()
+{
+    if (part_ == Part::scene) return ascend();
+    if (inLeaf_) {
+        finishLeaf();
+    } else if (keysRead_ != std::size(KEYS)) {
+        throw wrong(fmt::format("the key \"{}\" is missing", KEYS[keysRead_]));
+    }
+    return true;
+}
+
+bool TreeEvents::start_array(std::size_t)
+{
+    if (isWithinScene()) return descend();
+    if (inLeaf_) return placed([&] { leaf_.openArray(); });
+    if (part_ == Part::root) {
+        placed([&] { tree_.openGroup(); });
+        groups_++;
+        return true;
+    }
+    if (part_ != Part::texels || depth_ == 2) throw wrong("an array is out of place");
+    depth_++;
+    return true;
+}
+
+bool TreeEvents::end_array()
+{
+    if (part_ == Part::scene) return ascend();
+    if (inLeaf_) return placed([&] { leaf_.closeArray(); });
+    if (part_ == Part::root) {
+        closeGroup();
+        return true;
+    }
+    depth_--;
+    if (depth_ == 1) {
+        finishTexel();
+    } else {
+        part_ = Part::file;
+    }
+    return true;
+}
+
+bool TreeEvents::key(string_t& name)
+{
+    if (part_ == Part::scene) return true;
+    if (inLeaf_) return placed([&] { leaf_.key(name); });
+    fileKey(name);
+    return true;
+}
+
+void TreeEvents::fileKey(const std::string& name)
+{
+    static constexpr Part PARTS[] = {Part::file, Part::scene, Part::texels, Part::root};
+    if (keysRead_ == std::size(KEYS)) throw wrong("no key may follow \"root\"");
+    if (name != KEYS[keysRead_]) {
+        throw wrong(fmt::format("the key \"{}\" where \"{}\" is expected", name, KEYS[keysRead_]));
+    }
+    part_ = PARTS[keysRead_];
+    keysRead_++;
+}
+
+bool TreeEvents::parse_error(std::size_t position, const std::string&,
+                             const nlohmann::detail::exception& error)
+{
+    // "[json.exception...] parse error at line 1, column 2: syntax error while ..."
+    std::string why = error.what();
+    const size_t column = why.find("column ");
+    const size_t colon = column == std::string::npos ? column : why.find(": ", column);
+    if (colon != std::string::npos) why = why.substr(colon + 2);
+    if (why.starts_with("[json.exception")) why = why.substr(why.find("] ") + 2);
+    throw badInput("{}: {}", where(position > 0 ? position - 1 : 0), why);
+}
+
+void TreeEvents::finishTexel()
+{
+    if (components_ != 3) {
+        throw wrong(fmt::format("a texel has {} numbers where 3 are expected", components_));
+    }
+    prepared_.scene.probeTexels.push_back(texel_);
+    components_ = 0;
+}
+
+void TreeEvents::finishLeaf()
+{
+    inLeaf_ = false;
+    placed([&] { leaf_.finish(); });
+    Primitive primitive = leaf_.primitive();
+    if (leaf_.hasNormals()) {
+        std::vector<TriangleNormals>& normals = prepared_.scene.triangleNormals;
+        primitive.shape = static_cast<uint>(normals.size());
+        normals.push_back(leaf_.normals());
+    }
+    placed([&] { tree_.addLeaf(primitive); });
+}
+
+void TreeEvents::closeGroup()
+{
+    placed([&] { tree_.closeGroup(); });
+    groups_--;
+    if (groups_ == 0) part_ = Part::file;
+}
+
+}  // namespace sahl
