@@ -15,16 +15,17 @@ namespace {
 constexpr uint64_t MAX_TREE_BYTES = uint64_t{2} << 30;
 
 /// The value of "scene" in the bytes from `begin` to `end`. What stands in front of it becomes
-/// blanks, so that messages name the right line and column.
-void readScene(const std::string& file, std::string_view all, size_t begin, size_t end,
-               const SceneOptions& options, PreparedScene& prepared)
+/// blanks, so that messages name the right line and column. Returns the camera as it was saved.
+Camera readScene(const std::string& file, std::string_view all, size_t begin, size_t end,
+                 const SceneOptions& options, PreparedScene& prepared)
 {
     std::string text(all.substr(0, end));
     std::replace_if(
         text.begin(), text.begin() + static_cast<std::ptrdiff_t>(begin),
         [](char c) { return c != '\n'; }, ' ');
     const JsonDocument document = parseJson(file, text);
-    readDescription(document, {"materials", "lights", "objectStarts"}, options, prepared);
+    const Camera saved =
+        readDescription(document, {"materials", "lights", "objectStarts"}, options, prepared);
     Scene& scene = prepared.scene;
     const JsonNode& root = document.root;
     for (size_t i = 0; i < root.keys.size(); i++) {
@@ -42,6 +43,7 @@ void readScene(const std::string& file, std::string_view all, size_t begin, size
             }
         }
     }
+    return saved;
 }
 
 }  // namespace
@@ -54,10 +56,12 @@ PreparedScene loadTreeJson(const fs::path& path, const SceneOptions& options)
                                 mapped.bytes().size());
     PreparedScene prepared;
     prepared.scene.name = file;
+    Camera saved = {};
     auto readDescribed = [&](size_t begin, size_t end) {
-        readScene(file, text, begin, end, options, prepared);
+        saved = readScene(file, text, begin, end, options, prepared);
     };
     TreeEvents(file, text, readDescribed, prepared).read();
+    requireReach(prepared, saved);
     const DeviceScene scene = prepared.deviceScene();
     checkArrays(file, scene, prepared.bvh.rootRef, prepared.scene.objectStarts);
     checkFrame(file, scene.frame, scene.probeTexels.size());

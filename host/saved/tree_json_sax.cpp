@@ -1,5 +1,7 @@
 #include "saved/tree_json_sax.h"
 
+#include "bvh/instances.h"
+#include "saved/tree_joining.h"
 #include "scene/json_document.h"
 
 #include <algorithm>
@@ -12,7 +14,8 @@ namespace sahl {
 namespace {
 
 constexpr uint64_t TREE_VERSION = 1;
-constexpr const char* KEYS[] = {"sahlTree", "scene", "texels", "root"};
+constexpr const char* KEYS[] = {"sahlTree", "scene", "texels", "objects", "root"};
+constexpr size_t OBJECTS_KEY = 3;  // may be missing
 
 /// The text for the parser, which tells how far it got.
 struct Cursor {
@@ -52,7 +55,16 @@ void TreeEvents::read()
     const BvhBuild build = prepared_.bvh.statistics.build;
     prepared_.bvh = std::move(tree_.bvh);
     prepared_.bvh.statistics.build = build;
-    prepared_.bvh.statistics.primitivesSeen = prepared_.bvh.primitives.size();
+    placed([&] { joinTrees(prepared_.bvh, std::move(objects_), std::move(instances_)); });
+}
+
+/// Of the value under way, to begin a message with.
+std::string TreeEvents::path() const
+{
+    if (part_ == Part::texels)
+        return fmt::format("texels[{}]: ", prepared_.scene.probeTexels.size());
+    if (part_ == Part::objects) return fmt::format("objects[{}]: ", objects_.size());
+    return part_ == Part::root ? "root: " : "";
 }
 
 std::string TreeEvents::where(size_t offset) const
@@ -66,8 +78,8 @@ std::string TreeEvents::where(size_t offset) const
 
 Error TreeEvents::wrong(const std::string& finding) const
 {
-    return badInput("{}: {}; docs/saved_scenes.md describes the format",
-                    where(consumed_ > 0 ? consumed_ - 1 : 0), finding);
+    return badInput("{}: {}{}; docs/saved_scenes.md describes the format",
+                    where(consumed_ > 0 ? consumed_ - 1 : 0), path(), finding);
 }
 
 template <class Action>
@@ -183,7 +195,7 @@ bool TreeEvents::start_object(std::size_t)
         fileOpen_ = true;
         return true;
     }
-    if (part_ != Part::root || inLeaf_ || groups_ == 0) throw wrong("an object is out of place");
+    if (inLeaf_ || groups_ == 0) throw wrong("an object is out of place");
     leaf_ = {};
     inLeaf_ = true;
     return true;
@@ -195,7 +207,8 @@ bool TreeEvents::end_object()
     if (inLeaf_) {
         finishLeaf();
     } else if (keysRead_ != std::size(KEYS)) {
-        throw wrong(fmt::format("the key \"{}\" is missing", KEYS[keysRead_]));
+        const char* missing = keysRead_ == OBJECTS_KEY ? "root" : KEYS[keysRead_];
+        throw wrong(fmt::format("the key \"{}\" is missing", missing));
     }
     return true;
 }
@@ -204,9 +217,8 @@ bool TreeEvents::start_array(std::size_t)
 {
     if (isWithinScene()) return descend();
     if (inLeaf_) return placed([&] { leaf_.openArray(); });
-    if (part_ == Part::root) {
-        placed([&] { tree_.openGroup(); });
-        groups_++;
+    if (part_ == Part::objects || part_ == Part::root) {
+        openGroup();
         return true;
     }
     if (part_ != Part::texels || depth_ == 2) throw wrong("an array is out of place");
@@ -218,7 +230,7 @@ bool TreeEvents::end_array()
 {
     if (part_ == Part::scene) return ascend();
     if (inLeaf_) return placed([&] { leaf_.closeArray(); });
-    if (part_ == Part::root) {
+    if (part_ == Part::objects || part_ == Part::root) {
         closeGroup();
         return true;
     }
@@ -241,10 +253,13 @@ bool TreeEvents::key(string_t& name)
 
 void TreeEvents::fileKey(const std::string& name)
 {
-    static constexpr Part PARTS[] = {Part::file, Part::scene, Part::texels, Part::root};
+    static constexpr Part PARTS[] = {Part::file, Part::scene, Part::texels, Part::objects,
+                                     Part::root};
     if (keysRead_ == std::size(KEYS)) throw wrong("no key may follow \"root\"");
+    if (keysRead_ == OBJECTS_KEY && name == "root") keysRead_++;
     if (name != KEYS[keysRead_]) {
-        throw wrong(fmt::format("the key \"{}\" where \"{}\" is expected", name, KEYS[keysRead_]));
+        throw wrong(fmt::format("the key \"{}\" where \"{}\"{} is expected", name, KEYS[keysRead_],
+                                keysRead_ == OBJECTS_KEY ? " or \"root\"" : ""));
     }
     part_ = PARTS[keysRead_];
     keysRead_++;
@@ -275,6 +290,7 @@ void TreeEvents::finishLeaf()
 {
     inLeaf_ = false;
     placed([&] { leaf_.finish(); });
+    if (leaf_.isInstance()) return addInstance(leaf_.instance());
     Primitive primitive = leaf_.primitive();
     if (leaf_.hasNormals()) {
         std::vector<TriangleNormals>& normals = prepared_.scene.triangleNormals;
@@ -284,11 +300,66 @@ void TreeEvents::finishLeaf()
     placed([&] { tree_.addLeaf(primitive); });
 }
 
+/// What is wrong with it, or nothing.
+std::string TreeEvents::faultOf(const InstanceLeaf& leaf) const
+{
+    const ObjectInstance& o = leaf.instance;
+    const size_t materials = prepared_.scene.materials.size();
+    if (part_ != Part::root)
+        return "is in an object, which cannot have any; \"root\" has all instances";
+    if (leaf.number >= MAX_INSTANCES || instances_.size() == MAX_INSTANCES)
+        return fmt::format("there may be {}, counted from 0", MAX_INSTANCES);
+    if (leaf.object >= objects_.size())
+        return fmt::format("\"object\" is {}, the file has {}", leaf.object, objects_.size());
+    if (o.material != NO_MATERIAL && o.material >= materials)
+        return fmt::format("\"material\" is {}, the scene has {}", o.material, materials);
+    if (o.lo.x > o.hi.x || o.lo.y > o.hi.y || o.lo.z > o.hi.z)
+        return "\"lo\" is above \"hi\"; a box needs corners in order";
+    return "";
+}
+
+void TreeEvents::addInstance(const InstanceLeaf& leaf)
+{
+    const std::string fault = faultOf(leaf);
+    if (!fault.empty()) throw wrong(fmt::format("instance {}: {}", leaf.number, fault));
+    const Box box = {leaf.instance.lo, leaf.instance.hi};
+    placed([&] { tree_.addInstance(leaf.number, box, costOfInstance(objects_[leaf.object])); });
+    instances_.push_back(leaf);
+}
+
+void TreeEvents::openGroup()
+{
+    if (part_ == Part::objects && !listOpen_) {
+        listOpen_ = true;
+        return;
+    }
+    placed([&] { tree_.openGroup(); });
+    groups_++;
+}
+
 void TreeEvents::closeGroup()
 {
+    if (groups_ == 0) {  // the end of the list of objects
+        part_ = Part::file;
+        return;
+    }
     placed([&] { tree_.closeGroup(); });
     groups_--;
-    if (groups_ == 0) part_ = Part::file;
+    if (groups_ > 0) return;
+    if (part_ == Part::root) {
+        part_ = Part::file;
+    } else {
+        finishObject();
+    }
+}
+
+void TreeEvents::finishObject()
+{
+    if (tree_.bvh.primitives.empty()) throw wrong("there is nothing in it; leave it out");
+    if (objects_.size() == MAX_INSTANCES)
+        throw wrong(fmt::format("more than {} objects", MAX_INSTANCES));
+    objects_.push_back(std::move(tree_.bvh));
+    tree_ = {};
 }
 
 }  // namespace sahl

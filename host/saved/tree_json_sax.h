@@ -12,10 +12,11 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sahl {
 
-/// Fills in the texels and the tree. All errors are badInput with line and column.
+/// Fills in the texels and the trees. All errors are badInput with line and column.
 class TreeEvents : public nlohmann::json_sax<nlohmann::json> {
 public:
     /// Called with the value of "scene": its first byte and where it ends.
@@ -44,8 +45,9 @@ public:
 
 private:
     /// Where in the file the parser is: the values of its keys, or between them.
-    enum class Part { file, scene, texels, root };
+    enum class Part { file, scene, texels, objects, root };
 
+    std::string path() const;
     std::string where(size_t offset) const;
     Error wrong(const std::string& finding) const;
     template <class Action>
@@ -59,7 +61,11 @@ private:
     void fileKey(const std::string& name);
     void finishTexel();
     void finishLeaf();
+    std::string faultOf(const InstanceLeaf& leaf) const;
+    void addInstance(const InstanceLeaf& leaf);
+    void openGroup();
     void closeGroup();
+    void finishObject();
 
     const std::string& file_;
     std::string_view text_;
@@ -72,12 +78,15 @@ private:
     size_t keysRead_ = 0;    ///< of the file itself
     size_t sceneBegin_ = 0;  ///< [bytes]
     size_t depth_ = 0;       ///< arrays (in "scene" also objects) within the present value
+    bool listOpen_ = false;  ///< that of the objects
     size_t groups_ = 0;      ///< open ones
     bool inLeaf_ = false;
     TreeLeaf leaf_;
     vec4 texel_ = {};
     int components_ = 0;  ///< of the texel
-    TreeAssembly tree_;
+    TreeAssembly tree_;   ///< under way
+    std::vector<Bvh> objects_;
+    std::vector<InstanceLeaf> instances_;
 };
 
 }  // namespace sahl

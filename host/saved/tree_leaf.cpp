@@ -10,10 +10,11 @@ namespace sahl {
 
 namespace {
 
-constexpr const char* TYPE_WORDS[] = {"triangle", "sphere"};
+constexpr const char* TYPE_WORDS[] = {"triangle", "sphere", "instance"};
 constexpr uint TRIANGLE = 1;  // bits, in the order of the words
 constexpr uint SPHERE = 2;
-constexpr uint ANY_TYPE = 3;
+constexpr uint INSTANCE = 4;
+constexpr uint ANY_TYPE = 7;
 
 enum class Kind { word, index, number, vector, rows };  // rows: 3 vectors
 
@@ -24,13 +25,39 @@ struct LeafKey {
     uint optional;  ///< types that may have it
 };
 
-enum Key : size_t { type, number, material, p0, p1, p2, normals, center, radius };
+enum Key : size_t {
+    type,
+    number,
+    material,
+    p0,
+    p1,
+    p2,
+    normals,
+    center,
+    radius,
+    object,
+    toObject,
+    toWorld,
+    translation,
+    lo,
+    hi
+};
 constexpr LeafKey KEYS[] = {
-    {"type", Kind::word, ANY_TYPE, 0},      {"number", Kind::index, ANY_TYPE, 0},
-    {"material", Kind::index, ANY_TYPE, 0}, {"p0", Kind::vector, TRIANGLE, 0},
-    {"p1", Kind::vector, TRIANGLE, 0},      {"p2", Kind::vector, TRIANGLE, 0},
-    {"normals", Kind::rows, 0, TRIANGLE},   {"center", Kind::vector, SPHERE, 0},
+    {"type", Kind::word, ANY_TYPE, 0},
+    {"number", Kind::index, ANY_TYPE, 0},
+    {"material", Kind::index, TRIANGLE | SPHERE, INSTANCE},
+    {"p0", Kind::vector, TRIANGLE, 0},
+    {"p1", Kind::vector, TRIANGLE, 0},
+    {"p2", Kind::vector, TRIANGLE, 0},
+    {"normals", Kind::rows, 0, TRIANGLE},
+    {"center", Kind::vector, SPHERE, 0},
     {"radius", Kind::number, SPHERE, 0},
+    {"object", Kind::index, INSTANCE, 0},
+    {"toObject", Kind::rows, INSTANCE, 0},
+    {"toWorld", Kind::rows, INSTANCE, 0},
+    {"translation", Kind::vector, INSTANCE, 0},
+    {"lo", Kind::vector, INSTANCE, 0},
+    {"hi", Kind::vector, INSTANCE, 0},
 };
 
 /// How deep in arrays the numbers of a value are.
@@ -64,7 +91,8 @@ void TreeLeaf::text(const std::string& value)
     if (KEYS[key_].kind != Kind::word || depth_ != 0) throw badInput("a text is out of place");
     const auto found = std::find(std::begin(TYPE_WORDS), std::end(TYPE_WORDS), value);
     if (found == std::end(TYPE_WORDS)) {
-        throw badInput("\"type\" of a leaf is \"{}\"; known: \"triangle\", \"sphere\"", value);
+        throw badInput(
+            "\"type\" of a leaf is \"{}\"; known: \"triangle\", \"sphere\", \"instance\"", value);
     }
     type_ = static_cast<size_t>(found - std::begin(TYPE_WORDS));
 }
@@ -115,7 +143,7 @@ void TreeLeaf::finish() const
         const bool needed = (key.required & bit) != 0;
         if (needed && !has(i)) throw badInput("a leaf lacks the key \"{}\"", key.name);
         if (has(i) && ((key.required | key.optional) & bit) == 0) {
-            throw badInput("a {} has no key \"{}\"", TYPE_WORDS[type_], key.name);
+            throw badInput("a leaf of type \"{}\" has no key \"{}\"", TYPE_WORDS[type_], key.name);
         }
     }
 }
@@ -124,6 +152,28 @@ vec3 TreeLeaf::vectorOf(size_t key, size_t row) const
 {
     const std::array<float, 9>& n = values_[key].numbers;
     return {n[3 * row], n[3 * row + 1], n[3 * row + 2]};
+}
+
+bool TreeLeaf::isInstance() const
+{
+    return 1u << type_ == INSTANCE;
+}
+
+InstanceLeaf TreeLeaf::instance() const
+{
+    InstanceLeaf leaf = {values_[number].index, values_[object].index, {}};
+    ObjectInstance& o = leaf.instance;
+    o.material = has(material) ? values_[material].index : NO_MATERIAL;
+    o.toObject0 = vectorOf(toObject, 0);
+    o.toObject1 = vectorOf(toObject, 1);
+    o.toObject2 = vectorOf(toObject, 2);
+    o.toWorld0 = vectorOf(toWorld, 0);
+    o.toWorld1 = vectorOf(toWorld, 1);
+    o.toWorld2 = vectorOf(toWorld, 2);
+    o.translation = vectorOf(translation);
+    o.lo = vectorOf(lo);
+    o.hi = vectorOf(hi);
+    return leaf;
 }
 
 Primitive TreeLeaf::primitive() const

@@ -10,6 +10,13 @@
 
 namespace sahl {
 
+/// An instance as text has it; rootRef and firstNumber follow from its object and are left 0.
+struct InstanceLeaf {
+    uint number = 0;  ///< of the instance
+    uint object = 0;  ///< number of the object that it places
+    ObjectInstance instance;
+};
+
 /// All functions throw badInput, without a place, for what no leaf has.
 class TreeLeaf {
 public:
@@ -25,12 +32,14 @@ public:
     void finish() const;
 
     // Once finished.
+    bool isInstance() const;
+    InstanceLeaf instance() const;
     Primitive primitive() const;  ///< a triangle as one without normals of its own
     bool hasNormals() const;
     TriangleNormals normals() const;
 
 private:
-    static constexpr size_t MAX_KEYS = 9;
+    static constexpr size_t MAX_KEYS = 15;
 
     struct Value {
         uint index = 0;
