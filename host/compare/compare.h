@@ -8,6 +8,8 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace sahl {
 
@@ -100,6 +102,7 @@ struct Statistics {
     uint64_t noEvidencePixels = 0;     ///< variance 0 in both files: no z, nothing by themselves
     uint64_t noEvidenceDiffering = 0;  ///< of them, with values that differ
     double noEvidenceLargest = 0;      ///< the largest of these differences, relative to the mean
+    double noEvidenceShare = 0;        ///< all of these differences together, relative to all light
 
     MeanTest frame;
     bool frameDiffers = false;
