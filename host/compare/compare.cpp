@@ -116,14 +116,14 @@ Judgement judge(const LoadedPicture& a, const LoadedPicture& b, const Comparison
             Verdict::sameValues,
             fmt::format("no values differ by more than {:g} of them or of the mean", SAME_VALUES)};
     }
+    if (a.variance.empty() || b.variance.empty()) {
+        return {Verdict::differ, "values differ, and " + withoutVariance(a, b) +
+                                     " variances to tell noise from error"};
+    }
     if (c.paired) {
         return {Verdict::undecided,
                 "both files have equal seed, sampler and scene, so their noise is "
                 "the same and tests nothing; render one with another --seed"};
-    }
-    if (!c.statistics) {
-        return {Verdict::differ, "values differ, and " + withoutVariance(a, b) +
-                                     " variances to tell noise from error"};
     }
     return judgeStatistics(*c.statistics, options);
 }
