@@ -77,6 +77,11 @@ Judgement judgeStatistics(const Statistics& s, const CompareOptions& options)
                                              options.tolerated > 0 ? " and the tolerance" : "",
                                              percent(options.level))};
     }
+    if (s.excludedPixels == s.z.size()) {
+        return {Verdict::undecided,
+                "no pixel has a usable variance in both files, which takes at least 2 "
+                "samples a pixel"};
+    }
     if (!(s.frame.standardError > 0)) {
         return {Verdict::undecided,
                 "no pixel of either file has any spread between its samples, so "
@@ -161,8 +166,9 @@ std::vector<std::string> notesOn(const LoadedPicture& a, const LoadedPicture& b,
     if (!c.statistics) return notes;
     const Statistics& s = *c.statistics;
     if (s.excludedPixels > c.metrics.excludedPixels) {
-        notes.push_back(fmt::format("{} pixels have no usable variance: tests leave them out",
-                                    s.excludedPixels - c.metrics.excludedPixels));
+        notes.push_back(fmt::format(
+            "{} pixels have no usable variance (it takes 2 samples): tests leave them out",
+            s.excludedPixels - c.metrics.excludedPixels));
     }
     if (s.noEvidenceDiffering > 0) {
         notes.push_back(

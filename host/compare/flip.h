@@ -18,8 +18,7 @@ std::vector<float> ldrFlipMap(const Image& reference, const Image& test, double 
 
 /// Exposures [stops] that HDR-FLIP looks at: from where the brightest pixel of the reference has tone
 /// mapped luminance 0.85 up to where the median one has, as many as there are stops between, at least 2.
-/// at least 2. Where the median is 0, that of the luminances above 0; a single 0 for a black
-/// reference.
+/// Where the median is 0, that of the luminances above 0; a single 0 for a black reference.
 std::vector<double> hdrFlipExposures(const Image& reference);
 
 /// The largest LDR-FLIP of each pixel over these exposures, under a fit of the ACES tone curve.

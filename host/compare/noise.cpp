@@ -46,6 +46,9 @@ PixelPair pairAt(const LoadedPicture& a, const LoadedPicture& b, size_t i)
     p.usable = std::isfinite(p.a) && std::isfinite(p.b) && std::isfinite(p.varianceA) &&
                std::isfinite(p.varianceB) && p.varianceA >= 0 && p.varianceB >= 0;
     if (p.usable && !a.samples.empty() && !b.samples.empty()) {
+        // A single sample has no spread: its 0 says nothing, and light that it met by chance is no
+        // error.
+        p.usable = a.samples[i] >= 2 && b.samples[i] >= 2;
         p.pooled = pooledVariance(p.varianceA, a.samples[i], p.varianceB, b.samples[i]);
     }
     return p;

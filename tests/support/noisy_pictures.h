@@ -38,6 +38,13 @@ inline LoadedPicture brightened(LoadedPicture picture, double factor)
     return picture;
 }
 
+/// The same picture with the same noise, and a difference everywhere.
+inline LoadedPicture shifted(LoadedPicture picture, double difference)
+{
+    for (float& value : picture.image.rgb) value = static_cast<float>(value + difference);
+    return picture;
+}
+
 /// No noise: grey pixels with a stated variance.
 inline LoadedPicture statedPicture(uint32_t width, uint32_t height, float value, float variance,
                                    float samples)

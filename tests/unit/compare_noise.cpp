@@ -141,12 +141,12 @@ TEST(CompareNoise, oneBrightPixel_isNoEvidenceOfMore)
 
 TEST(CompareNoise, fewSamplesThatMetNoLight_areJudgedByTheOtherFile)
 {
-    // One in 100 samples is 100: mean 1, variance of a sample 99 * 100. With 1 sample per pixel a
-    // block of 64 is black in half of all cases; its own variance, 0, knows nothing of that.
-    const LoadedPicture black = statedPicture(8, 8, 0, 0, 1);
+    // One in 100 samples is 100: mean 1, variance of a sample 99 * 100. With 2 samples per pixel a
+    // block of 64 is black in a quarter of all cases; its own variance, 0, knows nothing of that.
+    const LoadedPicture black = statedPicture(8, 8, 0, 0, 2);
     const LoadedPicture right = statedPicture(8, 8, 1, 9900.0f / 1e5f, 1e5f);
     const Statistics s = testDifferences(black, right, {});
-    EXPECT_NEAR(s.frame.standardError, std::sqrt(9900.0 / 64), 0.01);
+    EXPECT_NEAR(s.frame.standardError, std::sqrt(9900.0 / 2 / 64), 0.01);
     EXPECT_FALSE(s.frameDiffers);
     EXPECT_EQ(s.differingBlocks, 0u);
 }
@@ -158,9 +158,10 @@ TEST(CompareNoise, pixelsWithoutUsableVariance_areLeftOutAndCounted)
     a.variance[3] = std::numeric_limits<float>::quiet_NaN();
     a.variance[4] = -1;
     a.image.rgb[3 * 5] = std::numeric_limits<float>::infinity();
+    a.samples[6] = 1;
     const Statistics s = testDifferences(a, b, {});
-    EXPECT_EQ(s.excludedPixels, 3u);
-    EXPECT_NEAR(s.frame.standardError, std::sqrt(0.2 / 61), 1e-6);
+    EXPECT_EQ(s.excludedPixels, 4u);
+    EXPECT_NEAR(s.frame.standardError, std::sqrt(0.2 / 60), 1e-6);
 }
 
 TEST(CompareNoise, roundingOfFloats_isNoDifference)

@@ -110,6 +110,14 @@ TEST(CompareVerdict, pixelsWithoutSpreadThatDiffer_forbidEquivalence)
     EXPECT_EQ(c.statistics->noEvidenceDiffering, 2048u);
 }
 
+TEST(CompareVerdict, oneSampleAPixel_isUndecided)
+{
+    const LoadedPicture a = statedPicture(16, 16, 1, 0, 1), b = statedPicture(16, 16, 9, 0.1f, 64);
+    const Comparison c = compare(a, b, {});
+    EXPECT_EQ(c.verdict, Verdict::undecided);
+    EXPECT_EQ(c.statistics->excludedPixels, 256u);
+}
+
 TEST(CompareVerdict, biasedFiles_areNamed)
 {
     LoadedPicture a = statedPicture(8, 8, 1, 0.01f, 4), b = statedPicture(8, 8, 1.01f, 0.01f, 4);
