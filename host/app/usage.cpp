@@ -89,9 +89,11 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error)
         return "a command is missing; choose " + enumeration(commandsOf(app));
     }
     if (kind == CLI::ExitCodes::RequiredError) {
-        const char* input = command.get_name() == "tonemap" ? "a picture: an .exr, .hdr or .pfm file"
-                                                            : "a scene: a .json, .obj or .ply file";
-        return fmt::format("'sahl {}' needs {}", command.get_name(), input);
+        const std::string name = command.get_name();
+        const char* input = name == "tonemap"   ? "a picture: an .exr, .hdr or .pfm file"
+                            : name == "compare" ? "two pictures: .exr, .hdr, .pfm or .png files"
+                                                : "a scene: a .json, .obj or .ply file";
+        return fmt::format("'sahl {}' needs {}", name, input);
     }
     const CLI::Option* option = optionNamedIn(command, error.what());
     if (option && option->get_items_expected_max() == 0)
@@ -113,7 +115,7 @@ std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) con
     for (const CLI::Option* option : app->get_options()) {
         if (!option->get_positional()) continue;
         std::string type = option->get_type_name();
-        words += option->get_required() ? type : "[" + type + "]";
+        words += (words.empty() ? "" : " ") + (option->get_required() ? type : "[" + type + "]");
     }
     return fmt::format("\nUsage: {} {}{}[options]\n", name, words, words.empty() ? "" : " ");
 }
