@@ -62,6 +62,7 @@ std::string unexpected(const CLI::App& app, const std::vector<std::string>& word
 const char* inputOf(const std::string& command)
 {
     if (command == "tonemap") return "a picture: an .exr, .hdr or .pfm file";
+    if (command == "compare") return "two pictures: .exr, .hdr, .pfm or .png files";
     if (command == "merge") return "parts of a picture: .exr files by sahl render --shard, and -o";
     return "a scene: a .json, .obj or .ply file";
 }
@@ -119,7 +120,7 @@ std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) con
     for (const CLI::Option* option : app->get_options()) {
         if (!option->get_positional()) continue;
         std::string type = option->get_type_name();
-        words += option->get_required() ? type : "[" + type + "]";
+        words += (words.empty() ? "" : " ") + (option->get_required() ? type : "[" + type + "]");
     }
     return fmt::format("\nUsage: {} {}{}[options]\n", name, words, words.empty() ? "" : " ");
 }
