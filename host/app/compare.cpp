@@ -5,7 +5,9 @@
 #include "app/compare_output.h"
 #include "app/option_kinds.h"
 #include "compare/gates.h"
+#include "compare/report.h"
 #include "util/error.h"
+#include "util/files.h"
 #include "util/messages.h"
 #include "util/parallel.h"
 
@@ -24,6 +26,7 @@ struct CompareCommand {
     fs::path a, b;
     CompareOptions options;
     Gates gates;
+    fs::path report;
     bool json = false;
     bool quiet = false;
 };
@@ -39,8 +42,26 @@ void requireVariances(const LoadedPicture& a, const LoadedPicture& b)
     }
 }
 
+/// Before anything is read, so that a bad path costs nothing.
+void checkReportPath(const CompareCommand& command)
+{
+    if (command.report.empty()) return;
+    if (command.report.extension() != ".html") {
+        throw usageError("--report {}: the page is a .html file", command.report.string());
+    }
+    requireWritable(command.report);
+}
+
+/// With replacements for what is not UTF-8 in names of files.
+std::string jsonText(const ComparedPictures& compared)
+{
+    return comparisonJson(compared).dump(2, ' ', false,
+                                         nlohmann::ordered_json::error_handler_t::replace);
+}
+
 int compareFiles(CompareCommand& command)
 {
+    checkReportPath(command);
     const LoadedPicture a = loadPicture(command.a);
     const LoadedPicture b = loadPicture(command.b);
     if (a.image.width != b.image.width || a.image.height != b.image.height) {
@@ -56,9 +77,11 @@ int compareFiles(CompareCommand& command)
     const Comparison comparison = compare(a, b, command.options);
     const std::vector<GateResult> gates = applyGates(command.gates, comparison);
     const ComparedPictures compared = {a, b, comparison, command.options, gates};
+    if (!command.report.empty()) {
+        writeFileAtomically(command.report, reportPage(jsonText(compared), a, b, comparison));
+    }
     if (command.json) {
-        answer("{}\n", comparisonJson(compared).dump(
-                           2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        answer("{}\n", jsonText(compared));
     } else if (!command.quiet) {
         printComparison(compared);
     }
@@ -134,6 +157,12 @@ Command addCompareCommand(CLI::App& app)
             "FLIP: pixels per degree of the visual field", "67.02")
         ->group("Metrics");
     addGateOptions(*command, options->gates);
+    command
+        ->add_option(
+            "--report", options->report,
+            "page (.html) to look at both and their differences,\ncomplete without a network")
+        ->type_name("FILE")
+        ->group("Output");
     addFlag(*command, "--json", options->json, "everything as JSON on stdout")->group("Output");
     addNumber(*command, "--threads", options->options.threads, {1, 1024}, "threads", "all cores")
         ->group("Messages");

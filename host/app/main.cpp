@@ -54,12 +54,13 @@ int run(int argc, char** argv)
     std::map<std::string, Command> commands = {{"render", addRenderCommand(app)},
                                                {"tonemap", addTonemapCommand(app)},
                                                {"compare", addCompareCommand(app)},
+                                               {"merge", addMergeCommand(app)},
                                                {"verify", addVerifyCommand(app)},
                                                {"bvh", addBvhCommand(app)},
                                                {"devices", addDevicesCommand(app)},
                                                {"bench", addBenchCommand(app)}};
     if (argc < 2) {
-        say("usage: sahl render|tonemap|compare|verify|bvh|devices|bench [options]\ntry: sahl --help\n");
+        say("usage: sahl render|tonemap|compare|merge|verify|bvh|devices|bench [options]\ntry: sahl --help\n");
         return static_cast<int>(ErrorKind::usage);
     }
     app.require_subcommand(1);
