@@ -77,6 +77,12 @@ LoadedPicture loadPicture(const fs::path& path)
     }
     picture.image = readImage(path);
     if (picture.format == "EXR") readLayersInto(path, picture);
+    if (picture.format == "packed") {
+        warn(fmt::format(
+            "{}: of a packed picture only R, G and B are read; unpack it for a verdict by its "
+            "variance",
+            path.string()));
+    }
     return picture;
 }
 
