@@ -2,6 +2,7 @@
 #include "shared/bindings.h"
 #include "support/device_test.h"
 #include "support/render_scenes.h"
+#include "support/source_folder.h"
 
 namespace sahl::testing {
 namespace {
@@ -12,7 +13,7 @@ protected:
     {
         static const PreparedScene prepared = [] {
             SceneOptions options = smallPicture(40, 24, 4);
-            const fs::path path = fs::path(__FILE__).parent_path() / "../scenes/instances.json";
+            const fs::path path = sourceFolder() / "tests/scenes/instances.json";
             return prepareScene(loadScene(path, options), BvhBuild::sweep, 1);
         }();
         return prepared;

@@ -4,6 +4,7 @@
 #include "shared/bindings.h"
 #include "support/device_test.h"
 #include "support/render_scenes.h"
+#include "support/source_folder.h"
 
 namespace sahl::testing {
 namespace {
@@ -12,7 +13,7 @@ class PhongBits : public DeviceTest {
 protected:
     static Scene load(uint32_t width, uint32_t height, uint32_t spp)
     {
-        const fs::path path = fs::path(__FILE__).parent_path() / "../scenes/phong.json";
+        const fs::path path = sourceFolder() / "tests/scenes/phong.json";
         return loadScene(path, smallPicture(width, height, spp));
     }
 

@@ -3,6 +3,7 @@
 #include "image/image.h"
 #include "support/device_test.h"
 #include "support/saved_files.h"
+#include "support/source_folder.h"
 
 namespace sahl::testing {
 namespace {
@@ -39,7 +40,7 @@ TEST_F(SavedScenes, ofEveryFeatureRenderToTheSameBits)
     Image stripes = {8, 8, {}};  // the angular map that one of the scenes names
     for (uint32_t i = 0; i < 3 * 64; i++) stripes.rgb.push_back(static_cast<float>(i % 7));
     writeFileAtomically(folder.path / "angular.pfm", encodePfm(stripes));
-    const fs::path scenes = fs::path(__FILE__).parent_path() / "../scenes";
+    const fs::path scenes = sourceFolder() / "tests/scenes";
     for (const auto& entry : fs::directory_iterator(scenes)) {
         SCOPED_TRACE(entry.path().filename().string());
         const fs::path scene = folder.path / entry.path().filename();

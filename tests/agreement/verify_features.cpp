@@ -6,13 +6,14 @@
 #include "support/device_test.h"
 #include "support/render_scenes.h"
 #include "support/scene_files.h"
+#include "support/source_folder.h"
 
 namespace sahl::testing {
 namespace {
 
 fs::path testFolder()
 {
-    return fs::path(__FILE__).parent_path() / "..";
+    return sourceFolder() / "tests";
 }
 
 /// Colours that differ from texel to texel, as a picture of an angular map.
@@ -81,9 +82,8 @@ TEST_P(LongVerifySmallScenes, haveNoDifferingBitInExactMath)
 }
 
 constexpr const char* SMALL_SCENES[] = {
-    "mirror", "dielectric",  "conductor",  "report_material", "sphere",  "lens", "orthographic",
-    "spot",   "directional", "background", "emission",        "angular", "phong",
-    "instances"};
+    "mirror", "dielectric",  "conductor",  "report_material", "sphere",  "lens",  "orthographic",
+    "spot",   "directional", "background", "emission",        "angular", "phong", "instances"};
 
 const auto nameOfScene = [](const auto& tested) { return std::string(tested.param); };
 

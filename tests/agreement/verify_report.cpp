@@ -5,6 +5,7 @@
 #include "support/device_test.h"
 #include "support/render_scenes.h"
 #include "support/scene_files.h"
+#include "support/source_folder.h"
 
 #include <algorithm>
 #include <sstream>
@@ -16,7 +17,7 @@ const std::string FETCHED = "../../../.assets/meshes/";  // how these scenes nam
 
 fs::path sourceFolder()
 {
-    return fs::path(__FILE__).parent_path() / "../..";
+    return sourceFolder();
 }
 
 /// All scenes of scenes/report, as figNN/name.json.

@@ -3,6 +3,7 @@
 #include "render/verify.h"
 #include "support/device_test.h"
 #include "support/render_scenes.h"
+#include "support/source_folder.h"
 
 namespace sahl::testing {
 namespace {
@@ -14,7 +15,10 @@ struct Case {
     const char* mapping;
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const Case& c, std::ostream* out)
+{
+    *out << c.name;
+}
 
 constexpr const char* UFFIZI = "probes/latlong/uffizi.hdr";
 constexpr const char* BEACH = "probes/angular/beach_probe.hdr";
@@ -48,7 +52,7 @@ protected:
     {
         const Case& c = GetParam();
         SceneOptions options = smallPicture(size, size, spp);
-        fs::path path = fs::path(__FILE__).parent_path() / "../../scenes/default/default.json";
+        fs::path path = sourceFolder() / "scenes/default/default.json";
         if (*c.mesh != 0) path = assetFolder() / c.mesh;
         if (*c.probe != 0) {
             options.probe = assetFolder() / c.probe;
@@ -59,7 +63,8 @@ protected:
         PreparedScene prepared = prepareScene(std::move(scene), BvhBuild::automatic, 2);
         auto device = openFirstDevice();
         auto cpu = makeCpuDevice({});
-        VerifyResult result = verifyDevice(*device, *cpu, prepared.deviceScene(), spp, 0, [](double) {});
+        VerifyResult result =
+            verifyDevice(*device, *cpu, prepared.deviceScene(), spp, 0, [](double) {});
         EXPECT_TRUE(result.equal()) << result.differingPixels << " pixels differ";
         EXPECT_EQ(result.differingFilmBits, 0u);
         EXPECT_EQ(result.deviceFilm.counters.cameraRays, uint64_t{size} * size * spp);
@@ -119,7 +124,8 @@ TEST_F(DeviceTest, verifyFindsTheFirstPixelSampleAndBounceOfADifference)
         uint64_t maxAdaptivePixels() const override { return inner->maxAdaptivePixels(); }
         DeviceStatistics statistics() const override { return inner->statistics(); }
     };
-    PreparedScene prepared = prepareScene(builtInScene(smallPicture(48, 32, 8)), BvhBuild::sweep, 2);
+    PreparedScene prepared =
+        prepareScene(builtInScene(smallPicture(48, 32, 8)), BvhBuild::sweep, 2);
     Tampered tampered;
     auto cpu = makeCpuDevice({});
     VerifyResult result = verifyDevice(tampered, *cpu, prepared.deviceScene(), 8, 0, [](double) {});

@@ -1,6 +1,7 @@
 // What `sahl render` leaves: pictures, what they say of themselves, statistics.
 #include "cli/sahl_program.h"
 #include "image/image.h"
+#include "support/source_folder.h"
 
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
@@ -15,7 +16,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-const fs::path DEFAULT_SCENE = fs::path(SAHL_SOURCE_FOLDER) / "scenes/default/default.json";
+const fs::path DEFAULT_SCENE = sourceFolder() / "scenes/default/default.json";
 
 std::string exrText(const fs::path& path, const std::string& name)
 {
@@ -160,7 +161,7 @@ void collectKeys(const nlohmann::json& json, const std::string& prefix, std::set
 std::set<std::string> documentedKeys()
 {
     std::set<std::string> keys;
-    std::ifstream file(fs::path(SAHL_SOURCE_FOLDER) / "docs/stats.md");
+    std::ifstream file(sourceFolder() / "docs/stats.md");
     for (std::string line; std::getline(file, line);) {
         if (line == "## Of the tree alone") break;  // what sahl bvh adds
         if (line.starts_with("| `")) keys.insert(line.substr(3, line.find('`', 3) - 3));
@@ -170,7 +171,8 @@ std::set<std::string> documentedKeys()
 
 TEST_F(Pictures, statistics_haveTheDocumentedKeysAndNoOthers)
 {
-    ASSERT_EQ(render({"--stats", "stats.json", "--adaptive", "report", "--max-spp", "20"}).exitCode, 0);
+    ASSERT_EQ(render({"--stats", "stats.json", "--adaptive", "report", "--max-spp", "20"}).exitCode,
+              0);
     auto statistics = nlohmann::json::parse(textOf(folder / "stats.json"));
     std::set<std::string> keys;
     collectKeys(statistics, "", keys);

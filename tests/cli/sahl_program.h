@@ -1,6 +1,7 @@
 // What the tests of the built program share: running it, and small scenes for it.
 #pragma once
 
+#include "cli/programs.h"
 #include "support/run_program.h"
 #include "support/temporary_folder.h"
 

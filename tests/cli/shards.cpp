@@ -1,6 +1,7 @@
 // --shard, --sample-range and --keep-film: which samples are rendered, and what is refused.
 #include "cli/sahl_program.h"
 #include "image/exr_layers.h"
+#include "support/source_folder.h"
 
 #include <csignal>
 #include <regex>
@@ -307,7 +308,7 @@ TEST_F(Shards, slurmScript_rendersAnArrayAndMergesIt)
     options.environment["SAHL"] = SAHL_PROGRAM;
     options.environment["SBATCH_OPTIONS"] = "--time=1";
     const RunResult result =
-        runProgram(SAHL_SOURCE_FOLDER "/tools/slurm_render",
+        runProgram(sourceFolder() / "tools/slurm_render",
                    {"my ball.json", "3", "out put.exr", "--spp", "44", "--device", "cpu"}, options);
     ASSERT_EQ(result.exitCode, 0) << result.err;
     ASSERT_EQ(
@@ -316,10 +317,10 @@ TEST_F(Shards, slurmScript_rendersAnArrayAndMergesIt)
         0);
     EXPECT_TRUE(textOf(folder / "out put.exr") == textOf(folder / "one.exr"));
     EXPECT_TRUE(fs::exists(folder / "out put.parts/2.exr"));
-    EXPECT_EQ(runProgram(SAHL_SOURCE_FOLDER "/tools/slurm_render", {"my ball.json", "0", "a.exr"},
-                         options)
-                  .exitCode,
-              2);
+    EXPECT_EQ(
+        runProgram(sourceFolder() / "tools/slurm_render", {"my ball.json", "0", "a.exr"}, options)
+            .exitCode,
+        2);
 }
 
 }  // namespace

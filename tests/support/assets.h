@@ -1,6 +1,8 @@
 // Where the test pictures and meshes lie that are too large for this repository.
 #pragma once
 
+#include "support/source_folder.h"
+
 #include <cstdlib>
 #include <filesystem>
 
@@ -10,7 +12,7 @@ namespace sahl::testing {
 inline std::filesystem::path assetFolder()
 {
     if (const char* folder = std::getenv("SAHL_ASSETS")) return folder;
-    return std::filesystem::path(__FILE__).parent_path() / "../../../shared/assets";
+    return sourceFolder() / "../shared/assets";
 }
 
 }  // namespace sahl::testing

@@ -5,6 +5,7 @@
 #include "saved/saved_scene.h"
 #include "support/render_scenes.h"
 #include "support/scene_files.h"
+#include "support/source_folder.h"
 
 #include <cstring>
 
@@ -48,7 +49,7 @@ inline std::string richScene()
 /// Objects placed several times, nested, mirrored, repainted.
 inline fs::path instancesScene()
 {
-    return fs::path(__FILE__).parent_path() / "../scenes/instances.json";
+    return sourceFolder() / "tests/scenes/instances.json";
 }
 
 /// A teapot placed 20 times in rows, each turned and scaled differently.

@@ -6,6 +6,7 @@
 #include "scene/polygon.h"
 #include "scene/primitives.h"
 #include "support/scene_files.h"
+#include "support/source_folder.h"
 
 #include <cmath>
 #include <limits>
@@ -306,8 +307,7 @@ TEST(BuiltInScene, isSmallLitAndTheSameEveryTime)
 
 TEST(DefaultScene, loadsAndShowsTheWholeTeapot)
 {
-    const Scene scene =
-        loadScene(fs::path(__FILE__).parent_path() / "../../scenes/default/default.json", {});
+    const Scene scene = loadScene(sourceFolder() / "scenes/default/default.json", {});
     EXPECT_EQ(scene.droppedTriangles, 0u);
     const Camera& camera = scene.camera;
     size_t teapotTriangles = 0;

@@ -2,6 +2,7 @@
 #include "scene/json_document.h"
 #include "scene/scene_keys.h"
 #include "support/scene_files.h"
+#include "support/source_folder.h"
 
 #include <algorithm>
 #include <clocale>
@@ -258,7 +259,8 @@ TEST(JsonScene, readsAdaptiveSampling)
     EXPECT_EQ(standard.minSamples, 20u);
     EXPECT_EQ(standard.maxSamples, 1000u);
     const AdaptiveRule given =
-        loadJson(R"({ "integrator": { "adaptive": { "rule": "report", "epsilon": 0.5, "minSamples": 3,
+        loadJson(
+            R"({ "integrator": { "adaptive": { "rule": "report", "epsilon": 0.5, "minSamples": 3,
                      "maxSamples": 4 } } })")
             .settings.adaptive;
     EXPECT_EQ(given.epsilon, 0.5f);
@@ -271,13 +273,14 @@ TEST(JsonScene, refusesAdaptiveSamplingWhoseMinimumIsAboveItsMaximum)
     EXPECT_CONTAINS(
         errorOfJson(R"({ "integrator": { "adaptive": { "rule": "report", "maxSamples": 10 } } })"),
         "scene.json:1:31: minSamples is 20, above maxSamples, which is 10");
-    EXPECT_CONTAINS(errorOfJson(R"({ "integrator": { "adaptive": { "threshold": 1 } } })"),
-                    "unknown key \"threshold\" in \"adaptive\" of the integrator; did you mean \"epsilon\"?");
+    EXPECT_CONTAINS(
+        errorOfJson(R"({ "integrator": { "adaptive": { "threshold": 1 } } })"),
+        "unknown key \"threshold\" in \"adaptive\" of the integrator; did you mean \"epsilon\"?");
 }
 
 JsonDocument readSchema()
 {
-    const fs::path path = fs::path(__FILE__).parent_path() / "../../scenes/schema.json";
+    const fs::path path = sourceFolder() / "scenes/schema.json";
     return parseJson("schema.json", readTextFile(path));
 }
 
@@ -335,8 +338,7 @@ std::string sceneWith(const Sample& sample, const std::string& key, const std::s
     if (sample.object == std::string("disk") && key != "radius") rest = R"(, "radius": 1)";
     if (sample.object == std::string("directionCamera") && key != "fovRad")
         rest = R"(, "fovRad": 1)";
-    if (sample.object == std::string("adaptive") && key != "rule")
-        rest = R"(, "rule": "report")";
+    if (sample.object == std::string("adaptive") && key != "rule") rest = R"(, "rule": "report")";
     return sample.before + ("\"" + key + "\": " + value) + rest + sample.after;
 }
 
