@@ -12,6 +12,7 @@
 #include "app/progress.h"
 #include "app/sample_range.h"
 #include "app/shading_options.h"
+#include "app/skip_existing.h"
 #include "app/stats.h"
 #include "film/layers.h"
 #include "render/prepare.h"
@@ -121,20 +122,27 @@ AdaptiveReport reportOf(const RenderSettings& settings, const RenderResult& resu
     return {settings.adaptive, result.adaptive, result.film.counters.cameraRays};
 }
 
-ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, const SampleRange& taken,
-                         const SceneHashes& hashes, const Device& device)
+/// What is rendered, whatever part of it.
+ImageMetadata settingsMetadata(const Scene& scene, const SceneHashes& hashes)
 {
-    DeviceInfo info = device.info();
     ImageMetadata metadata = describeShading(scene.settings);
     metadata.merge(ImageMetadata{{"sahl.version", SAHL_VERSION},
-                                 {"sahl.scene", fs::path(scene.name).filename().string()},
                                  {"sahl.integrator", integratorName(scene.settings)},
                                  {"sahl.sampler", "independent"},
                                  {"sahl.varianceOver", "samples"},
                                  {"sahl.seed", std::to_string(scene.settings.seed)},
                                  {"sahl.maxBounces", std::to_string(scene.settings.maxBounces)},
                                  {"sahl.sceneHash", hashText(hashes.scene)},
-                                 {"sahl.treeHash", hashText(hashes.tree)},
+                                 {"sahl.treeHash", hashText(hashes.tree)}});
+    return metadata;
+}
+
+ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, const SampleRange& taken,
+                         const SceneHashes& hashes, const Device& device)
+{
+    DeviceInfo info = device.info();
+    ImageMetadata metadata = settingsMetadata(scene, hashes);
+    metadata.merge(ImageMetadata{{"sahl.scene", fs::path(scene.name).filename().string()},
                                  {"sahl.firstSample", std::to_string(taken.first)},
                                  {"sahl.sampleCount", std::to_string(taken.end - taken.first)},
                                  {"sahl.passes", std::to_string(result.passes)},
@@ -149,6 +157,18 @@ ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, const S
 SampleRange takenOf(const SampleRange& range, uint32_t passes)
 {
     return {range.first, std::min(range.end, range.first + passes * BLOCK_SIZE)};
+}
+
+/// The file that this run would write, when nothing interrupts it.
+ExpectedPart expectedPart(const RenderOptions& options, const Scene& scene, const RenderSettings& film)
+{
+    const ImagePlace all = {0, 0, film.width, film.height};
+    return {settingsMetadata(scene, options.hashes),
+            {{options.samples}, mostSamples(scene.settings)},
+            film.width,
+            film.height,
+            options.output.place.value_or(all),
+            options.output.firstHits};
 }
 
 /// Looks at --crop now that the size of the picture is known. Returns the size of the film.
@@ -291,13 +311,15 @@ int runRender(RenderOptions& options)
         seconds.load = watch.lap();
     });
     seconds.build = watch.lap();
+    options.hashes = hashesOf(prepared.deviceScene());
+    if (options.range.isPart()) sayRange(options);
+    if (options.range.skipExisting && areFinished(options.output.paths, expectedPart(options, prepared.scene, filmSettings)))
+        return 0;
     std::unique_ptr<Device> device = openDeviceFor(options.common);
     device->setScene(prepared.deviceScene());
     seconds.upload = watch.lap();
 
     const RenderSettings& settings = prepared.scene.settings;
-    options.hashes = hashesOf(prepared.deviceScene());
-    if (options.range.isPart()) sayRange(options);
     RenderPlan plan = {filmSettings.width, filmSettings.height, options.samples.first,
                        options.samples.end - options.samples.first, options.common.tileSize};
     if (options.crop) {

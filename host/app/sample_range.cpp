@@ -81,12 +81,26 @@ void addRangeOptions(CLI::App& command, RangeOptions& options)
             "the exact film as channels of every .exr, for sahl merge;\nparts have it always "
             "(docs/merge.md)")
         ->group("Parts");
+    addFlag(command, "--skip-existing", options.skipExisting,
+            "render nothing when every -o is there, finished by an earlier\nrun with the same "
+            "settings: for "
+            "retries")
+        ->group("Parts");
 }
 
 void checkRangeOptions(const RangeOptions& options, const std::vector<fs::path>& outputs)
 {
     if (options.range && options.shard) {
         throw usageError("--sample-range and --shard both say which samples to render; give one");
+    }
+    if (options.skipExisting && !options.wantsFilm()) {
+        throw usageError(
+            "--skip-existing looks at films; use it with --shard, --sample-range or --keep-film");
+    }
+    if (options.skipExisting && !std::all_of(outputs.begin(), outputs.end(), isExrPath)) {
+        throw usageError(
+            "--skip-existing cannot tell whether other outputs than .exr files are finished; "
+            "write those by sahl merge");
     }
     if (!options.wantsFilm() || std::any_of(outputs.begin(), outputs.end(), isExrPath)) return;
     throw usageError("{} needs an output that ends in .exr: other formats cannot hold the film",

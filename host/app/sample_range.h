@@ -1,5 +1,5 @@
-// --sample-range, --shard and --keep-film: rendering some of a picture's samples, to be merged
-// later.
+// --sample-range, --shard, --keep-film and --skip-existing: rendering some of a picture's samples,
+// to be merged later.
 #pragma once
 
 #include "app/job_array.h"
@@ -14,6 +14,7 @@ struct RangeOptions {
     std::optional<SampleRange> range;
     std::optional<ArrayTask> shard;
     bool keepFilm = false;
+    bool skipExisting = false;
 
     bool isPart() const { return range || shard; }
     bool wantsFilm() const { return isPart() || keepFilm; }

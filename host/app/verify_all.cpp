@@ -1,10 +1,15 @@
 // sahl verify --all-devices: one table of all that computes on this machine.
 
+#include "app/adaptive.h"
 #include "app/commands.h"
 #include "app/verify.h"
+#include "compare/noise.h"
+#include "film/film_error.h"
+#include "render/render.h"
 #include "util/error.h"
 #include "util/messages.h"
 
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -19,8 +24,58 @@ struct Row {
     bool interrupted = false;
     std::optional<ErrorKind> failure = {};  ///< that of a device where nothing could be compared
     std::string verdict = {};
+    std::string noise = {};  ///< what wrong bits mean for the picture; "" when all are right
     nlohmann::ordered_json json = {};
 };
+
+/// A film as a file of it would say it.
+LoadedPicture pictureOf(const Film& film)
+{
+    LoadedPicture picture;
+    picture.image = meanImage(film);
+    for (size_t i = 0; i < film.digest.size(); i++) {
+        picture.variance.push_back(static_cast<float>(pixelStatistics(film, i).varianceOfMean));
+    }
+    return picture;
+}
+
+/// The picture of the reference with other random numbers: of the scene's seed a device that
+/// differs has noise in common with the reference, and no test of means could be made.
+LoadedPicture independentPicture(Device& reference, const PreparedScene& prepared)
+{
+    const RenderSettings& settings = prepared.scene.settings;
+    DeviceScene scene = prepared.deviceScene();
+    scene.frame.seed++;
+    reference.setScene(scene);
+    const RenderPlan plan = {settings.width, settings.height, 0, settings.spp, 0};
+    return pictureOf(renderPicture(reference, plan, [](const RenderProgress&) {}).film);
+}
+
+/// Do wrong bits make a wrong picture?
+Statistics testAgainstNoise(const Film& film, Device& reference, const PreparedScene& prepared,
+                            const VerifyOptions& options)
+{
+    CompareOptions compareOptions;
+    compareOptions.threads = threadsFor(options.common);
+    return testDifferences(pictureOf(film), independentPicture(reference, prepared),
+                           compareOptions);
+}
+
+std::string noiseText(const Statistics& statistics)
+{
+    const double mean = 0.5 * (statistics.meanA + statistics.meanB);
+    if (!(statistics.frame.standardError > 0) || !(mean > 0)) return "no spread to test it by";
+    if (statistics.frameDiffers || statistics.differingBlocks > 0) {
+        return fmt::format(
+            "against an independent render the mean differs by {:+.3g} % (z {:.1f}), "
+            "and {} of {} blocks do",
+            100 * statistics.frame.difference / mean, statistics.frame.z,
+            statistics.differingBlocks, statistics.testedBlocks);
+    }
+    return fmt::format("no difference from an independent render beyond noise; a bias of {:.3g} % "
+                       "would have been seen",
+                       100 * statistics.detectableBias);
+}
 
 std::string verdictText(const VerifyResult& result)
 {
@@ -41,6 +96,18 @@ void compareWith(Device& reference, const PreparedScene& prepared, const VerifyO
     row.verdict = verdictText(result);
     row.json["seconds"] = result.deviceSeconds;
     row.json.update(resultJson(result));
+    if (row.equal || row.interrupted || isAdaptive(prepared.scene.settings)) return;
+    const Statistics statistics = testAgainstNoise(result.deviceFilm, reference, prepared, options);
+    row.noise = noiseText(statistics);
+    row.json["againstIndependentRender"] = {
+        {"difference", statistics.frame.difference},
+        {"standardError", statistics.frame.standardError},
+        {"frameDiffers", statistics.frameDiffers},
+        {"differingBlocks", statistics.differingBlocks},
+        {"testedBlocks", statistics.testedBlocks},
+        {"detectableBias", std::isfinite(statistics.detectableBias)
+                               ? nlohmann::ordered_json(statistics.detectableBias)
+                               : nlohmann::ordered_json(nullptr)}};
 }
 
 void addFailure(Row& row, ErrorKind kind, const std::string& message)
@@ -88,6 +155,7 @@ void printTable(const PreparedScene& prepared, const Device& reference,
     for (const Row& row : rows) {
         answer("{:>5}  {:{}}  {:{}}  {}\n", row.info.index, row.info.name, names, row.info.driver,
                drivers, row.verdict);
+        if (!row.noise.empty()) answer("{:>{}}{}\n", "", 11 + names + drivers, row.noise);
     }
     answer("{:>5}  {:{}}  {:{}}  the reference\n", "cpu", cpu.name, names, cpu.driver, drivers);
 }

@@ -2,10 +2,19 @@
 #include "cli/sahl_program.h"
 #include "image/exr_layers.h"
 
+#include <csignal>
+#include <regex>
+
 namespace sahl::testing {
 namespace {
 
 using Variables = std::map<std::string, std::optional<std::string>>;
+
+/// Whether a bar has shown that a pass is done.
+bool passDone(const std::string& text)
+{
+    return std::regex_search(text, std::regex(" [1-9][0-9]*/8388608 spp"));
+}
 
 class Shards : public SceneFolderTest {
 protected:
@@ -211,6 +220,58 @@ TEST_F(Shards, autoWithoutSense_isAUsageError)
                   "PMI_SIZE 0 is out of range");
     expectRefused(renderUnder({{"PMI_RANK", ""}, {"PMI_SIZE", "4"}}, {"--shard", "auto"}), 2,
                   "none of ");
+}
+
+TEST_F(Shards, finishedParts_areSkippedAndOthersRendered)
+{
+    const Arguments part = {"--spp", "16", "--shard", "1/2", "--skip-existing", "-o", "a.exr"};
+    auto again = [&](const Arguments& more = {}) {
+        Arguments arguments = part;
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const RunResult result = render(arguments);
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        EXPECT_EQ(result.out, "a.exr\n");
+        return result.err;
+    };
+    EXPECT_HAS(again(), "a.exr: is not there yet; rendering it\n");
+    const std::string finished = textOf(folder / "a.exr");
+    const std::string skipped = again();
+    EXPECT_HAS(skipped, "a.exr: is finished already; not rendered again\n");
+    EXPECT_FALSE(has(skipped, "device:"));
+
+    EXPECT_HAS(again({"--seed", "7"}), "a.exr: sahl.seed is \"0\", not \"7\"; rendering it");
+    EXPECT_HAS(again(), "a.exr: sahl.seed is \"7\", not \"0\"");
+    EXPECT_HAS(again({"--shard", "0/2"}), "a.exr: has the samples 8:16 of 16, not 0:8 of 16");
+    EXPECT_HAS(again({"--spp", "24"}), "has the samples 0:8 of 16, not 8:24 of 24");
+    EXPECT_HAS(again({"--crop", "0,0,4,4"}), "has another size or window");
+    EXPECT_HAS(again(), "has another size or window");
+    EXPECT_HAS(again({"--aovs"}), "has not the layers of --aovs as asked for");
+    EXPECT_HAS(again({"--aovs"}), "is finished already");
+    EXPECT_HAS(again(), "has not the layers of --aovs as asked for");
+    EXPECT_TRUE(textOf(folder / "a.exr") == finished);
+
+    writeText(folder / "a.exr", finished.substr(0, finished.size() - 100));
+    EXPECT_HAS(again(), "a.exr: cannot be used (a.exr: ");
+    EXPECT_TRUE(textOf(folder / "a.exr") == finished);
+    expectRefused(render({"--skip-existing"}), 2,
+                  "--skip-existing looks at films; use it with --shard");
+    expectRefused(render({"--skip-existing", "--keep-film", "-o", "a.exr", "-o", "a.png"}), 2,
+                  "--skip-existing cannot tell whether other outputs");
+}
+
+TEST_F(Shards, killedParts_leaveWhatPartialWrote)
+{
+    RunningProgram program(SAHL_PROGRAM,
+                           {"render", "ball.json", "--device", "cpu", "--spp", "16777216",
+                            "--shard", "1/2", "--partial", "0", "--progress", "bar", "-o", "a.exr"},
+                           here());
+    ASSERT_TRUE(program.waitForError(passDone));
+    program.signal(SIGKILL);
+    EXPECT_EQ(program.finish().killedBy, SIGKILL);
+    EXPECT_EQ(attribute("a.exr", "sahl.partial"), "yes");
+    EXPECT_TRUE(attribute("a.exr", "sahl.sampleRanges").starts_with("8388608:"));
+    EXPECT_EQ(sahl({"merge", "a.exr", "-o", "b.exr", "--allow-gaps"}, here()).exitCode, 0);
+    EXPECT_EQ(attribute("b.exr", "sahl.partial"), "");
 }
 
 /// A program that stands for Slurm's: runs every task of the array at once, and the job that waits
