@@ -160,7 +160,9 @@ Command addCompareCommand(CLI::App& app)
     command
         ->add_option(
             "--report", options->report,
-            "page (.html) to look at both and their differences,\ncomplete without a network")
+            withDefault(
+                "page (.html) to look at both and their differences,\ncomplete without a network",
+                "none"))
         ->type_name("FILE")
         ->group("Output");
     addFlag(*command, "--json", options->json, "everything as JSON on stdout")->group("Output");
