@@ -15,11 +15,6 @@ namespace {
 
 const std::string FETCHED = "../../../.assets/meshes/";  // how these scenes name meshes
 
-fs::path sourceFolder()
-{
-    return sourceFolder();
-}
-
 /// All scenes of scenes/report, as figNN/name.json.
 std::vector<std::string> reportScenes()
 {
