@@ -12,6 +12,7 @@
 #include "app/progress.h"
 #include "app/shading_options.h"
 #include "app/stats.h"
+#include "app/stop_options.h"
 #include "film/layers.h"
 #include "render/prepare.h"
 #include "sahl_version.h"
@@ -34,6 +35,7 @@ struct RenderOptions {
     std::string statsPath;
     std::optional<CropWindow> crop;
     std::optional<double> partialSeconds;
+    StopOptions stop;
 };
 
 void addOutputOptions(CLI::App& command, RenderOptions& options)
@@ -106,7 +108,8 @@ std::vector<ImageChannel> firstHitLayers(const RenderOptions& options, const Pre
 
 AdaptiveReport reportOf(const RenderSettings& settings, const RenderResult& result)
 {
-    return {settings.adaptive, result.adaptive, result.film.counters.cameraRays};
+    return {settings.adaptive, result.adaptive, result.film.counters.cameraRays,
+            filmError(result.film, settings.adaptive.targetError)};
 }
 
 ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_t samplesTaken,
@@ -127,6 +130,7 @@ ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_
                                  {"sahl.interrupted", result.interrupted ? "yes" : "no"},
                                  {"sahl.device", info.name},
                                  {"sahl.driver", info.driver}});
+    metadata.merge(stopMetadata(result));
     if (isAdaptive(scene.settings)) metadata.merge(adaptiveMetadata(reportOf(scene.settings, result)));
     return metadata;
 }
@@ -268,6 +272,7 @@ int runRender(RenderOptions& options)
     }
     std::vector<ImageChannel> firstHits = firstHitLayers(options, prepared, plan, *device);
     seconds.firstHits = watch.lap();
+    applyStopOptions(options.stop, plan);
     RenderResult result = renderLight(options, prepared.scene, plan, firstHits, *device);
     seconds.render = watch.lap();
 
@@ -287,6 +292,8 @@ int runRender(RenderOptions& options)
     if (isAdaptive(settings) && !options.common.quiet) {
         say("{}\n", adaptiveSummary(reportOf(settings, result)));
     }
+    const std::string stopped = stopSummary(result);
+    if (!stopped.empty() && !options.common.quiet) say("{}\n", stopped);
     if (options.common.verbose) printDetails(prepared, *device);
     if (!options.common.quiet) {
         for (const fs::path& path : outputs) {
@@ -311,6 +318,7 @@ Command addRenderCommand(CLI::App& app)
     addOutputOptions(*command, *options);
     addMapOptions(*command, options->maps);
     addSceneOptions(*command, options->common);
+    addStopOptions(*command, options->stop);
     addCropOption(*command, options->crop);
     addDeviceOptions(*command, options->common);
     addMessageOptions(*command, options->common);

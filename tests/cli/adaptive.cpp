@@ -106,7 +106,7 @@ TEST_F(AdaptiveProgram, optionsWithoutEffectAndContradictionsAreRefused)
     expectRefused(render({"--max-spp", "100"}), 2, "--max-spp says nothing");
     expectRefused(render({"--adaptive", "report", "--spp", "8"}), 2, "--spp says nothing under adaptive");
     expectRefused(render({"--adaptive", "report", "--max-spp", "8"}), 2,
-                  "at least 20 samples per pixel and at most 8 contradict each other");
+                  "--min-spp is 20, above --max-spp, which is 8");
     expectRefused(render({"--adaptive", "report", "--epsilon", "0"}), 2, "--epsilon 0 is out of range");
 }
 

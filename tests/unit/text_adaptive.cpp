@@ -34,7 +34,7 @@ Stopped runRule(const AdaptiveRule& rule, const std::function<vec3(uint32_t)>& s
 
 AdaptiveRule report(float epsilon, uint32_t minSamples, uint32_t maxSamples)
 {
-    return {ADAPTIVE_REPORT, epsilon, minSamples, maxSamples};
+    return {ADAPTIVE_REPORT, epsilon, minSamples, maxSamples, 0, 0, 0, 0};
 }
 
 TEST(ReportRule, constantRadianceStopsAtTheMinimum)
@@ -219,7 +219,7 @@ TEST(FilmSums, blocksGoToTheHalvesInTurn)
         block.bounces = 7;
         block.badSamples = 1;
         film.add(0, 0, 1, 1, first, {&block, 1});
-        kernel.addBlock(block, pixel.film);
+        kernel.addBlock(block, first, pixel.film);
     }
     Film added(1, 1);
     added.add(0, 0, 1, 1, {&pixel, 1}, true);
