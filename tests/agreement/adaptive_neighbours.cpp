@@ -12,8 +12,9 @@
 namespace sahl::testing {
 namespace {
 
-constexpr uint32_t WIDTH = 40, HEIGHT = 24;
-constexpr uint32_t PILOTS = 32, MOST = 160;
+constexpr uint32_t WIDTH = 24, HEIGHT = 16;
+constexpr uint32_t PILOTS = 32, MOST = 192;
+constexpr float TARGET = 0.1f;
 
 PreparedScene smallScene(uint32_t width = WIDTH, uint32_t height = HEIGHT)
 {
@@ -29,7 +30,7 @@ void ignore(const RenderProgress&) {}
 
 class AdaptiveNeighbours : public DeviceTest, public ::testing::WithParamInterface<uint32_t> {
 protected:
-    AdaptiveRule rule() const { return targetRule(GetParam(), 0.05f, PILOTS, MOST); }
+    AdaptiveRule rule() const { return targetRule(GetParam(), TARGET, PILOTS, MOST); }
 
     static const PreparedScene& scene()
     {
@@ -40,8 +41,8 @@ protected:
     const RenderResult& reference() const
     {
         static const RenderResult results[] = {
-            renderAdaptiveFilm(*makeCpuDevice({}), scene(), targetRule(ADAPTIVE_CROSSED, 0.05f, PILOTS, MOST)),
-            renderAdaptiveFilm(*makeCpuDevice({}), scene(), targetRule(ADAPTIVE_JOINT, 0.05f, PILOTS, MOST))};
+            renderAdaptiveFilm(*makeCpuDevice({}), scene(), targetRule(ADAPTIVE_CROSSED, TARGET, PILOTS, MOST)),
+            renderAdaptiveFilm(*makeCpuDevice({}), scene(), targetRule(ADAPTIVE_JOINT, TARGET, PILOTS, MOST))};
         return results[GetParam() == ADAPTIVE_CROSSED ? 0 : 1];
     }
 
@@ -72,15 +73,15 @@ TEST_P(AdaptiveNeighbours, hasTheSameBitsOnTheDeviceAndTheReference)
     for (size_t i = 0; i < WIDTH * HEIGHT; i++) counts.insert(samplesOf(reference().film, i));
     EXPECT_EQ(*counts.begin(), PILOTS);
     EXPECT_EQ(*counts.rbegin(), MOST);
-    EXPECT_GT(counts.size(), 10u);
-    EXPECT_GT(reference().adaptive.converged, 50u);
-    EXPECT_GT(reference().adaptive.atMaximum, 50u);
+    EXPECT_GT(counts.size(), 5u);
+    EXPECT_GT(reference().adaptive.converged, 20u);
+    EXPECT_GT(reference().adaptive.atMaximum, 20u);
     EXPECT_EQ(reference().adaptive.converged + reference().adaptive.atMaximum, WIDTH * HEIGHT);
 }
 
 TEST_P(AdaptiveNeighbours, hasTheSameBitsForEveryTileSizeAndNumberOfThreads)
 {
-    for (uint32_t tile : {3u, 17u}) expectSameOnDevice({}, tile);
+    expectSameOnDevice({}, 7);
     for (uint32_t tile : {1u, 5u, 16u, 37u}) expectSame(*makeCpuDevice({}), tile);
     for (unsigned threads : {1u, 5u}) {
         DeviceOptions options;
@@ -102,7 +103,7 @@ TEST_P(AdaptiveNeighbours, hasTheSameBitsForOtherGroupsBuffersAndArithmetic)
 TEST_P(AdaptiveNeighbours, hasTheSameBitsWhenPathsRunOutOfSteps)
 {
     DeviceOptions options;
-    options.stepBudget = 37;
+    options.stepBudget = 200;
     auto device = openFirstDevice(options);
     expectSame(*device, 13);
     EXPECT_GT(device->statistics().resumptions, 0u);
@@ -219,7 +220,7 @@ TEST_P(AdaptiveNeighbours, finishedPixelsLeaveTheQueues)
 /// The rule `crossed` alone.
 class AdaptiveCrossed : public DeviceTest {};
 
-const AdaptiveRule CROSSED = targetRule(ADAPTIVE_CROSSED, 0.05f, PILOTS, MOST);
+const AdaptiveRule CROSSED = targetRule(ADAPTIVE_CROSSED, TARGET, PILOTS, MOST);
 
 TEST_F(AdaptiveCrossed, filmIsThatOfTheBlocksOfEachHalf)
 {
