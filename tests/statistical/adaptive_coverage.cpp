@@ -58,18 +58,21 @@ void measure(Case tested, uint32_t referenceSamples)
     const PreparedScene scene = prepareScene(std::move(tested.scene), BvhBuild::sweep, 2);
     auto device = makeCpuDevice({});
     const Film reference = renderFilm(*device, scene, 1u << 20, referenceSamples);
-    const double none = coverage(renderFilm(*device, scene, 0, tested.maxSamples / 2), reference);
+    auto byNone = [&](uint32_t samples) { return coverage(renderFilm(*device, scene, 0, samples), reference); };
     auto byRule = [&](const AdaptiveRule& rule) {
         return coverage(renderAdaptiveFilm(*device, scene, rule).film, reference);
     };
+    const double none = byNone(tested.maxSamples / 2);
+    const double few = byNone(64);
     const double crossed = byRule(targetRule(ADAPTIVE_CROSSED, 0.05f, 64, tested.maxSamples));
     const double joint = byRule(targetRule(ADAPTIVE_JOINT, 0.05f, 64, tested.maxSamples));
-    std::printf("%-10s none %.1f %%, crossed %.1f %%, joint %.1f %%\n", tested.name, 100 * none, 100 * crossed,
-                100 * joint);
-    // 2304 pixels: one standard error of the share is 0.45 %.
+    std::printf("%-10s none %.1f %% with %u samples, %.1f %% with 64; crossed %.1f %%, joint %.1f %%\n", tested.name,
+                100 * none, tested.maxSamples / 2, 100 * few, 100 * crossed, 100 * joint);
+    // 2304 pixels: one standard error of the share is 0.45 %. Samples of a pixel that has few are not normal;
+    // rules stop where they are few.
     EXPECT_GT(none, tested.least);
     EXPECT_LT(none, 0.975);
-    EXPECT_GT(crossed, tested.least - 0.02);
+    EXPECT_GT(crossed, few - 0.02);
 }
 
 TEST(LongAdaptiveCoverage, statedErrorsAreHonestWhereSamplesAreManyAndAlike)
