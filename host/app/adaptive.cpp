@@ -72,10 +72,10 @@ void addAdaptiveOptions(CLI::App& command, SceneOptions& scene)
         ->type_name("X")
         ->group("Picture");
     addNumber(command, "--min-spp", scene.minSpp, {1, 1 << 24},
-              "adaptive: least samples", "the scene's, else 64; report: 20")
+              "adaptive: least samples", "the scene's, else the rule's")
         ->group("Picture");
     addNumber(command, "--max-spp", scene.maxSpp, {1, 1 << 24},
-              "adaptive: most samples", "the scene's, else 1024; report:\n1000")
+              "adaptive: most samples", "the scene's, else the rule's")
         ->group("Picture");
 }
 

@@ -71,7 +71,7 @@ void addMapOptions(CLI::App& command, MapOptions& options)
         .add_option_function<std::string>(
             "--error-map",
             [&options](const std::string& file) { options.maps.push_back(parseMap("error=" + file)); },
-            withDefault("picture of each pixel's relative error, as --map error=FILE.png", "none"))
+            withDefault("the pixels' relative errors, as --map error=FILE.png", "none"))
         ->type_name("FILE")
         ->group("Maps");
     addChoice(command, "--map-colors", style.colors,

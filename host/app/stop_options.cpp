@@ -7,7 +7,7 @@ namespace sahl {
 void addStopOptions(CLI::App& command, StopOptions& options)
 {
     addNumber(command, "--passes", options.passes, {1, 1 << 21},
-              "stop after so many passes of up to 8 samples a pixel", "all of them")
+              "stop after so many passes of 8 samples", "all of them")
         ->group("Picture");
     auto setLimit = [&options](const std::string& text) {
         options.timeLimit = parseReal("--time-limit", text, 0, 1e9);
@@ -33,8 +33,8 @@ std::string stopSummary(const RenderResult& result)
 {
     if (result.stoppedBy == StoppedBy::nothing) return "";
     const char* why = result.stoppedBy == StoppedBy::time ? "the time limit" : "--passes";
-    return fmt::format("stopped by {} after {} passes; --passes {} makes the same picture again", why,
-                       result.passes, result.passes);
+    return fmt::format("stopped by {} after {} passes; --passes {} makes the same picture again",
+                       why, result.passes, result.passes);
 }
 
 ImageMetadata stopMetadata(const RenderResult& result)

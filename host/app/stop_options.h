@@ -20,8 +20,8 @@ void addStopOptions(CLI::App& command, StopOptions& options);
 
 void applyStopOptions(const StopOptions& options, RenderPlan& plan);
 
-/// A line for the summary of a run: what ended it before all samples were there, and what makes the same
-/// picture again; empty where nothing did.
+/// A line for the summary of a run: what ended it before all samples were there, and what makes the
+/// same picture again; empty where nothing did.
 std::string stopSummary(const RenderResult& result);
 
 /// "sahl.stopped": no, passes or time.

@@ -6,14 +6,15 @@
 
 namespace sahl {
 
-/// Whether a pixel's number of samples depends on its neighbours: all tiles go through passes together.
+/// Whether a pixel's number of samples depends on its neighbours: all tiles go through passes
+/// together.
 inline bool looksAtNeighbours(const AdaptiveRule& rule)
 {
     return rule.rule == ADAPTIVE_CROSSED || rule.rule == ADAPTIVE_JOINT;
 }
 
-/// Whether a decision follows the pass after which there were `passes`: once under `crossed`, when all
-/// pilots are there; under `joint` after every pass from then on.
+/// Whether a decision follows the pass after which there were `passes`: once under `crossed`, when
+/// all pilots are there; under `joint` after every pass from then on.
 inline bool decisionIsDue(const AdaptiveRule& rule, uint32_t passes)
 {
     const uint32_t pilots = rule.minSamples / BLOCK_SIZE;

@@ -46,9 +46,9 @@ bool AdaptivePasses::isFinished() const
     return std::ranges::all_of(tiles_, [](const TileInWork& work) { return work.active == 0; });
 }
 
-bool AdaptivePasses::runPass(
-    const std::function<bool()>& beforeTile,
-    const std::function<void(const TileInWork&, uint32_t activeBefore, const AdaptivePass&)>& tileDone)
+bool AdaptivePasses::runPass(const std::function<bool()>& beforeTile,
+                             const std::function<void(const TileInWork&, uint32_t activeBefore,
+                                                      const AdaptivePass&)>& tileDone)
 {
     for (TileInWork& work : tiles_) {
         if (work.active == 0) continue;

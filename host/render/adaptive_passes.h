@@ -1,4 +1,5 @@
-// Tiles under adaptive sampling that go through passes together, and the decisions between two passes.
+// Tiles under adaptive sampling that go through passes together, and the decisions between two
+// passes.
 #pragma once
 
 #include "device/device.h"
@@ -15,13 +16,14 @@ struct TileInWork {
     uint32_t passes = 0;
 };
 
-/// 1 % of the picture's median luminance, from each half's pilots or from both together: pixels darker than
-/// that need not be better than this one. The same bits everywhere.
+/// 1 % of the picture's median luminance, from each half's pilots or from both together: pixels
+/// darker than that need not be better than this one. The same bits everywhere.
 AdaptiveFloors floorsOf(std::span<const PixelEstimate> estimates);
 
 class AdaptivePasses {
 public:
-    /// Begins the tiles, which lie in the window. Rules that look at neighbours want the whole window in them.
+    /// Begins the tiles, which lie in the window. Rules that look at neighbours want the whole
+    /// window in them.
     AdaptivePasses(Device& device, const AdaptiveWindow& window, std::span<const TileRequest> tiles,
                    const AdaptiveRule& rule);
 
@@ -32,8 +34,8 @@ public:
     ///   tileDone    told after each tile, with what was active before
     /// Returns whether the pass is whole.
     bool runPass(const std::function<bool()>& beforeTile,
-                 const std::function<void(const TileInWork&, uint32_t activeBefore, const AdaptivePass&)>&
-                     tileDone);
+                 const std::function<void(const TileInWork&, uint32_t activeBefore,
+                                          const AdaptivePass&)>& tileDone);
 
     std::span<const TileInWork> tiles() const { return tiles_; }
     uint32_t passes() const { return passes_; }  ///< whole ones

@@ -1,5 +1,5 @@
-// The rules `crossed` and `joint`, which look at neighbours: counts and film are a function of the scene and
-// the rule alone, however the picture is cut up.
+// The rules `crossed` and `joint`, which look at neighbours: counts and film are a function of the
+// scene and the rule alone, however the picture is cut up.
 
 #include "render/verify.h"
 #include "support/adaptive_scenes.h"
@@ -41,8 +41,10 @@ protected:
     const RenderResult& reference() const
     {
         static const RenderResult results[] = {
-            renderAdaptiveFilm(*makeCpuDevice({}), scene(), targetRule(ADAPTIVE_CROSSED, TARGET, PILOTS, MOST)),
-            renderAdaptiveFilm(*makeCpuDevice({}), scene(), targetRule(ADAPTIVE_JOINT, TARGET, PILOTS, MOST))};
+            renderAdaptiveFilm(*makeCpuDevice({}), scene(),
+                               targetRule(ADAPTIVE_CROSSED, TARGET, PILOTS, MOST)),
+            renderAdaptiveFilm(*makeCpuDevice({}), scene(),
+                               targetRule(ADAPTIVE_JOINT, TARGET, PILOTS, MOST))};
         return results[GetParam() == ADAPTIVE_CROSSED ? 0 : 1];
     }
 
@@ -169,17 +171,18 @@ TEST_P(AdaptiveNeighbours, passesAddUpToThePictureAndCanBeHadAlone)
     auto cpu = makeCpuDevice({});
     cpu->setScene(scene().deviceScene());
     uint32_t passes = 0, compared = 0;
-    renderAdaptive(*device, wholePicture(19), rule(), ignore, [&](const std::function<RenderResult()>& soFar) {
-        passes++;
-        if (passes != 3 && passes != 7 && passes != 8) return;
-        RenderPlan plan = wholePicture();
-        plan.maxPasses = passes;
-        const RenderResult alone = renderAdaptive(*cpu, plan, rule(), ignore);
-        EXPECT_TRUE(soFar().film == alone.film) << passes;
-        EXPECT_EQ(alone.passes, passes);
-        EXPECT_EQ(alone.stoppedBy, StoppedBy::passes);
-        compared++;
-    });
+    renderAdaptive(*device, wholePicture(19), rule(), ignore,
+                   [&](const std::function<RenderResult()>& soFar) {
+                       passes++;
+                       if (passes != 3 && passes != 7 && passes != 8) return;
+                       RenderPlan plan = wholePicture();
+                       plan.maxPasses = passes;
+                       const RenderResult alone = renderAdaptive(*cpu, plan, rule(), ignore);
+                       EXPECT_TRUE(soFar().film == alone.film) << passes;
+                       EXPECT_EQ(alone.passes, passes);
+                       EXPECT_EQ(alone.stoppedBy, StoppedBy::passes);
+                       compared++;
+                   });
     EXPECT_EQ(compared, 3u);
     EXPECT_EQ(passes + 1, reference().passes);
 }
@@ -194,8 +197,9 @@ TEST_P(AdaptiveNeighbours, aPictureThatDoesNotFitIsRefused)
         FAIL() << "not refused";
     } catch (const Error& error) {
         EXPECT_EQ(error.kind, ErrorKind::deviceLost);
-        EXPECT_NE(std::string(error.what()).find("room for 300 of them; render it in parts with --crop"),
-                  std::string::npos)
+        EXPECT_NE(
+            std::string(error.what()).find("room for 300 of them; render it in parts with --crop"),
+            std::string::npos)
             << error.what();
     }
 }
@@ -260,7 +264,8 @@ TEST_F(AdaptiveCrossed, samplesOfAHalfAfterAnyPassDependOnThatHalfAlone)
         plan.maxPasses = passes;
         const Film film = renderAdaptive(*cpu, plan, CROSSED, ignore).film;
         for (size_t i = 0; i < film.half[0].size(); i++) {
-            ASSERT_EQ(film.half[0][i].samples, std::min(whole.half[0][i].samples, (passes + 1) / 2 * 8));
+            ASSERT_EQ(film.half[0][i].samples,
+                      std::min(whole.half[0][i].samples, (passes + 1) / 2 * 8));
             ASSERT_EQ(film.half[1][i].samples, std::min(whole.half[1][i].samples, passes / 2 * 8));
         }
     }

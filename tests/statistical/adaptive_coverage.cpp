@@ -1,4 +1,5 @@
-// Are stated errors honest? How many pixels lie within 1.96 stated standard errors of the right value.
+// Are stated errors honest? How many pixels lie within 1.96 stated standard errors of the right
+// value.
 
 #include "film/film_error.h"
 #include "statistical/lamp_scene.h"
@@ -33,8 +34,8 @@ Scene builtIn()
     return scene;
 }
 
-/// Share of the pixels of `film` whose luminance is within 1.96 standard errors of the reference's, both
-/// errors counted.
+/// Share of the pixels of `film` whose luminance is within 1.96 standard errors of the reference's,
+/// both errors counted.
 double coverage(const Film& film, const Film& reference)
 {
     size_t inside = 0;
@@ -58,7 +59,9 @@ void measure(Case tested, uint32_t referenceSamples)
     const PreparedScene scene = prepareScene(std::move(tested.scene), BvhBuild::sweep, 2);
     auto device = makeCpuDevice({});
     const Film reference = renderFilm(*device, scene, 1u << 20, referenceSamples);
-    auto byNone = [&](uint32_t samples) { return coverage(renderFilm(*device, scene, 0, samples), reference); };
+    auto byNone = [&](uint32_t samples) {
+        return coverage(renderFilm(*device, scene, 0, samples), reference);
+    };
     auto byRule = [&](const AdaptiveRule& rule) {
         return coverage(renderAdaptiveFilm(*device, scene, rule).film, reference);
     };
@@ -66,10 +69,11 @@ void measure(Case tested, uint32_t referenceSamples)
     const double few = byNone(64);
     const double crossed = byRule(targetRule(ADAPTIVE_CROSSED, 0.05f, 64, tested.maxSamples));
     const double joint = byRule(targetRule(ADAPTIVE_JOINT, 0.05f, 64, tested.maxSamples));
-    std::printf("%-10s none %.1f %% with %u samples, %.1f %% with 64; crossed %.1f %%, joint %.1f %%\n", tested.name,
-                100 * none, tested.maxSamples / 2, 100 * few, 100 * crossed, 100 * joint);
-    // 2304 pixels: one standard error of the share is 0.45 %. Samples of a pixel that has few are not normal;
-    // rules stop where they are few.
+    std::printf(
+        "%-10s none %.1f %% with %u samples, %.1f %% with 64; crossed %.1f %%, joint %.1f %%\n",
+        tested.name, 100 * none, tested.maxSamples / 2, 100 * few, 100 * crossed, 100 * joint);
+    // 2304 pixels: one standard error of the share is 0.45 %. Samples of a pixel that has few are
+    // not normal; rules stop where they are few.
     EXPECT_GT(none, tested.least);
     EXPECT_LT(none, 0.975);
     EXPECT_GT(crossed, few - 0.02);

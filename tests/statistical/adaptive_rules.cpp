@@ -1,5 +1,5 @@
-// Are the rules of adaptive sampling biased? Each decides on millions of synthetic pixels, by the text's own
-// functions, whose right value is known.
+// Are the rules of adaptive sampling biased? Each decides on millions of synthetic pixels, by the
+// text's own functions, whose right value is known.
 
 #include "reference/kernel.h"
 #include "render/adaptive_passes.h"
@@ -35,6 +35,7 @@ struct SplitMix {
 /// A distribution by 4096 equally likely values.
 struct Distribution {
     const char* name;
+    float target;  // so that some pixels meet it and others do not
     std::vector<float> values;
 
     double mean() const
@@ -48,7 +49,7 @@ struct Distribution {
 /// Uniform in [0, 1], and with a probability of 1/100 (41 of 4096) a bright spot on top.
 Distribution rareBrightSpots()
 {
-    Distribution result = {"Bernoulli plus uniform", {}};
+    Distribution result = {"Bernoulli plus uniform", 0.15f, {}};
     for (uint32_t i = 0; i < 4096; i++) {
         const float uniform = (static_cast<float>(i * 1663 % 4096) + 0.5f) / 4096;
         result.values.push_back(uniform + (i < 41 ? 50.0f : 0.0f));
@@ -59,7 +60,7 @@ Distribution rareBrightSpots()
 /// exp of a normal variable of standard deviation 1.5, by its quantiles.
 Distribution lognormal()
 {
-    Distribution result = {"lognormal", {}};
+    Distribution result = {"lognormal", 0.4f, {}};
     for (uint32_t i = 0; i < 4096; i++) {
         const double p = (i + 0.5) / 4096;
         double low = -5, high = 5;
@@ -84,7 +85,8 @@ public:
 
     SplitMix blockOf(uint32_t pixel, uint32_t block) const
     {
-        SplitMix mix = {(uint64_t{picture_} << 40 | uint64_t{pixel} << 20 | block) * 0xd1342543de82ef95u + 1};
+        SplitMix mix = {
+            (uint64_t{picture_} << 40 | uint64_t{pixel} << 20 | block) * 0xd1342543de82ef95u + 1};
         mix.state = uint64_t{mix.next()} << 32 | mix.next();
         return mix;
     }
@@ -112,7 +114,8 @@ public:
     void estimate(const AdaptiveRule& rule)
     {
         estimates_.resize(PIXELS);
-        for (uint32_t pixel = 0; pixel < PIXELS; pixel++) estimates_[pixel] = kernel.estimateOf(rule, films_[pixel]);
+        for (uint32_t pixel = 0; pixel < PIXELS; pixel++)
+            estimates_[pixel] = kernel.estimateOf(rule, films_[pixel]);
         kernel.estimates = estimates_;
         kernel.pictureWidth = SIDE;
     }
@@ -131,7 +134,10 @@ public:
         return (kernelRed(film.sumsA) + kernelRed(film.sumsB)) / (film.samplesA + film.samplesB);
     }
 
-    uint32_t samples(uint32_t pixel) const { return films_[pixel].samplesA + films_[pixel].samplesB; }
+    uint32_t samples(uint32_t pixel) const
+    {
+        return films_[pixel].samplesA + films_[pixel].samplesB;
+    }
 
     Kernel kernel = {};
 
@@ -157,19 +163,21 @@ struct PictureMeans {
 
 void runCrossed(const Distribution& distribution, uint32_t number, PictureMeans& means)
 {
-    const AdaptiveRule rule = targetRule(ADAPTIVE_CROSSED, 0.15f, PILOTS, MOST);
+    const AdaptiveRule rule = targetRule(ADAPTIVE_CROSSED, distribution.target, PILOTS, MOST);
     SyntheticPicture picture(distribution, number);
     picture.addBlocks(0, PILOTS / BLOCK_SIZE);
     picture.estimate(rule);
     const AdaptiveFloors floors = picture.floors();
     for (uint32_t pixel = 0; pixel < PIXELS; pixel++) {
-        const uvec2 wanted = picture.kernel.wantedByCrossed(rule, floors, pixel % SIDE, pixel / SIDE);
+        const uvec2 wanted =
+            picture.kernel.wantedByCrossed(rule, floors, pixel % SIDE, pixel / SIDE);
         for (uint32_t pass = PILOTS / BLOCK_SIZE; pass < MOST / BLOCK_SIZE; pass++) {
             const bool takes = pass % 2 == 0 ? picture.kernel.lacksInA(rule, wanted.x, pass)
                                              : picture.kernel.lacksInB(rule, wanted.y, pass);
             if (takes) picture.addBlock(pixel, pass);
         }
-        means.mean[CROSSED] += (picture.meanOfHalf(pixel, true) + picture.meanOfHalf(pixel, false)) / 2 / PIXELS;
+        means.mean[CROSSED] +=
+            (picture.meanOfHalf(pixel, true) + picture.meanOfHalf(pixel, false)) / 2 / PIXELS;
         means.mean[POOLED] += picture.pooledMean(pixel) / PIXELS;
         means.samples[CROSSED] += double(picture.samples(pixel)) / PIXELS;
     }
@@ -178,7 +186,7 @@ void runCrossed(const Distribution& distribution, uint32_t number, PictureMeans&
 
 void runJoint(const Distribution& distribution, uint32_t number, PictureMeans& means)
 {
-    const AdaptiveRule rule = targetRule(ADAPTIVE_JOINT, 0.15f, PILOTS, MOST);
+    const AdaptiveRule rule = targetRule(ADAPTIVE_JOINT, distribution.target, PILOTS, MOST);
     SyntheticPicture picture(distribution, number);
     uint32_t passes = PILOTS / BLOCK_SIZE;
     picture.addBlocks(0, passes);
@@ -228,8 +236,8 @@ struct Bias {
     double bias = 0, standardError = 0;  // relative to the right mean
 };
 
-/// Over all pictures; the standard error by the spread between these, so that it holds whatever pixels of
-/// one picture have to do with each other.
+/// Over all pictures; the standard error by the spread between these, so that it holds whatever
+/// pixels of one picture have to do with each other.
 std::array<Bias, WAYS> biases(const Distribution& distribution, uint32_t pictures)
 {
     std::vector<PictureMeans> all(pictures);
