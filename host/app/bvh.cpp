@@ -140,8 +140,10 @@ void addOutputOptions(CLI::App& command, BvhOptions& options)
         ->type_name("FILE")
         ->group("Output");
     command
-        .add_option("--json", options.jsonPath,
-                    withDefault("the same as nested JSON, to read and to render from", "none"))
+        .add_option(
+            "--json", options.jsonPath,
+            withDefault("the same as nested JSON, instances included, to read and to render from",
+                        "none"))
         ->type_name("FILE")
         ->group("Output");
     command

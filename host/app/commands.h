@@ -12,6 +12,8 @@ using Command = std::function<int()>;
 
 Command addRenderCommand(CLI::App& app);
 Command addTonemapCommand(CLI::App& app);
+Command addCompareCommand(CLI::App& app);
+Command addMergeCommand(CLI::App& app);
 Command addVerifyCommand(CLI::App& app);
 Command addBvhCommand(CLI::App& app);
 Command addDevicesCommand(CLI::App& app);

@@ -26,7 +26,8 @@ int usageFailure(const CLI::App& app, const CLI::ParseError& error)
     const CLI::App& command = activeCommand(app);
     std::string name = &command == &app ? "" : command.get_name() + " ";
     say("sahl: {}\ntry: sahl {}--help\n", usageMessage(app, error), name);
-    return static_cast<int>(ErrorKind::usage);
+    // Exit codes of compare are those of idiff.
+    return command.get_name() == "compare" ? 4 : static_cast<int>(ErrorKind::usage);
 }
 
 int run(int argc, char** argv)
@@ -45,18 +46,21 @@ int run(int argc, char** argv)
         "counts, unless it says that it is repeatable.\n\n"
         "Exit codes: 0 fine, 1 a check failed, 2 usage, 3 bad input, 4 cannot write, 5 no "
         "suitable\n"
-        "device, 6 device lost or out of memory, 129, 130 or 143 interrupted, after saving.\n\n"
+        "device, 6 device lost or out of memory, 129, 130 or 143 interrupted, after saving;\n"
+        "those of compare are its own.\n\n"
         "Examples:\n"
         "  sahl render scenes/default/default.json -o teapot.png -o teapot.exr\n"
         "  sahl verify                     # does this machine's driver compute the right bits?");
     std::map<std::string, Command> commands = {{"render", addRenderCommand(app)},
                                                {"tonemap", addTonemapCommand(app)},
+                                               {"compare", addCompareCommand(app)},
+                                               {"merge", addMergeCommand(app)},
                                                {"verify", addVerifyCommand(app)},
                                                {"bvh", addBvhCommand(app)},
                                                {"devices", addDevicesCommand(app)},
                                                {"bench", addBenchCommand(app)}};
     if (argc < 2) {
-        say("usage: sahl render|tonemap|verify|bvh|devices|bench [options]\ntry: sahl --help\n");
+        say("usage: sahl render|tonemap|compare|merge|verify|bvh|devices|bench [options]\ntry: sahl --help\n");
         return static_cast<int>(ErrorKind::usage);
     }
     app.require_subcommand(1);

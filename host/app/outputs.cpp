@@ -1,5 +1,6 @@
 #include "app/outputs.h"
 
+#include "film/film_channels.h"
 #include "util/error.h"
 
 #include <optional>
@@ -16,14 +17,17 @@ std::string extensionOf(const fs::path& path)
     return extension;
 }
 
+using Integers = std::span<const IntegerChannel>;
+
 /// Keeps the result of long work whose outputs failed. Returns what to tell the user.
-std::string rescue(const Image& image, const OutputOptions& options, const ImageMetadata& metadata)
+std::string rescue(const Image& image, const OutputOptions& options, const ImageMetadata& metadata,
+                   Integers film)
 {
     std::error_code ignored;
     fs::path path = fs::temp_directory_path(ignored);
     path /= fmt::format("sahl-rescued-{:08x}.exr", std::random_device{}());
     try {
-        writeFileAtomically(path, encodeExr(image, metadata, {}, options.place));
+        writeFileAtomically(path, encodeExr(image, metadata, {}, options.place, film));
     } catch (const Error&) {
         return "";
     }
@@ -33,14 +37,16 @@ std::string rescue(const Image& image, const OutputOptions& options, const Image
 /// Writes to every path and returns the first failure.
 std::optional<Error> writeEach(const Image& image, const OutputOptions& options,
                                const ImageMetadata& metadata,
-                               std::span<const ImageChannel> channels, bool& linearWritten)
+                               std::span<const ImageChannel> channels, Integers film,
+                               bool& linearWritten)
 {
     std::optional<Error> failure;
     linearWritten = false;
     for (const fs::path& path : options.paths) {
         try {
-            writeImage(image, options, path, metadata, channels);
-            linearWritten = linearWritten || extensionOf(path) != ".png";
+            writeImage(image, options, path, metadata, channels, film);
+            const bool holdsFilm = film.empty() || isExrPath(path);
+            linearWritten = linearWritten || (extensionOf(path) != ".png" && holdsFilm);
         } catch (const Error& error) {
             if (!failure) failure = error;
         }
@@ -48,7 +54,17 @@ std::optional<Error> writeEach(const Image& image, const OutputOptions& options,
     return failure;
 }
 
+std::vector<IntegerChannel> filmOf(const Film& film, const OutputOptions& options)
+{
+    return options.film ? filmChannels(film) : std::vector<IntegerChannel>();
+}
+
 }  // namespace
+
+bool isExrPath(const fs::path& path)
+{
+    return extensionOf(path) == ".exr";
+}
 
 void checkPicturePaths(const std::vector<fs::path>& paths)
 {
@@ -90,11 +106,12 @@ void refuseToReplaceInputs(const std::vector<fs::path>& outputs)
 }
 
 void writeImage(const Image& image, const OutputOptions& options, const fs::path& path,
-                const ImageMetadata& metadata, std::span<const ImageChannel> channels)
+                const ImageMetadata& metadata, std::span<const ImageChannel> channels,
+                std::span<const IntegerChannel> integers)
 {
     std::string extension = extensionOf(path);
     if (extension == ".exr") {
-        writeFileAtomically(path, encodeExr(image, metadata, channels, options.place));
+        writeFileAtomically(path, encodeExr(image, metadata, channels, options.place, integers));
     } else if (extension == ".pfm") {
         writeFileAtomically(path, encodePfm(image));
     } else {
@@ -106,10 +123,12 @@ void writeOutputs(const Film& film, const OutputOptions& options, const ImageMet
                   std::span<const ImageChannel> channels)
 {
     Image image = meanImage(film);
+    const std::vector<IntegerChannel> integers = filmOf(film, options);
     bool linearWritten = false;
-    std::optional<Error> failure = writeEach(image, options, metadata, channels, linearWritten);
+    std::optional<Error> failure =
+        writeEach(image, options, metadata, channels, integers, linearWritten);
     if (!failure) return;
-    std::string rescued = linearWritten ? "" : rescue(image, options, metadata);
+    std::string rescued = linearWritten ? "" : rescue(image, options, metadata, integers);
     throw Error(failure->kind, failure->what() + rescued);
 }
 
@@ -117,7 +136,8 @@ void writePartialOutputs(const Film& film, const OutputOptions& options,
                          const ImageMetadata& metadata, std::span<const ImageChannel> channels)
 {
     bool ignored = false;
-    std::optional<Error> failure = writeEach(meanImage(film), options, metadata, channels, ignored);
+    std::optional<Error> failure =
+        writeEach(meanImage(film), options, metadata, channels, filmOf(film, options), ignored);
     if (failure) throw Error(*failure);
 }
 

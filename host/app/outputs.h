@@ -17,7 +17,11 @@ struct OutputOptions {
     ToneOptions tone;
     bool firstHits = false;  ///< albedo, normals, depth and so on as layers of EXR files
     std::optional<ImagePlace> place;  ///< of a window of the picture, told by EXR files
+    bool film = false;                ///< the exact film as channels of EXR files
 };
+
+/// Whether the name ends in .exr, in capitals or not.
+bool isExrPath(const fs::path& path);
 
 /// Refuses pictures that cannot be written, before anything is read or rendered: unknown extensions
 /// (usage), unwritable files (cannotWrite).
@@ -31,9 +35,10 @@ void checkPngPath(const std::string& option, const fs::path& path, const std::ve
 void refuseToReplaceInputs(const std::vector<fs::path>& outputs);
 
 /// Writes a picture, in the format that the extension names.
-///   channels  beside the picture, in an EXR only
+///   channels, integers  beside the picture, in an EXR only
 void writeImage(const Image& image, const OutputOptions& options, const fs::path& path,
-                const ImageMetadata& metadata, std::span<const ImageChannel> channels = {});
+                const ImageMetadata& metadata, std::span<const ImageChannel> channels = {},
+                std::span<const IntegerChannel> integers = {});
 
 /// Writes the film's mean picture to every path, each file complete or not at all. When one fails
 /// the others are still written; then the first failure is thrown. A linear picture that none of

@@ -40,12 +40,14 @@ std::string duration(double seconds)
 
 std::string describe(const RenderProgress& p, uint32_t samplesPerPixel)
 {
-    double mraysPerSecond = double(p.rays) / std::max(p.seconds, 1e-9) * 1e-6;
+    std::string speed = p.rays > 0 ? fmt::format("  {:.2f} Mrays/s",
+                                                 double(p.rays) / std::max(p.seconds, 1e-9) * 1e-6)
+                                   : "";
     double left = p.fraction > 0 ? p.seconds / p.fraction - p.seconds : 0;
     std::string error =
         p.relativeError > 0 ? fmt::format("  error {:.2g} %", 100 * p.relativeError) : "";
-    return fmt::format("{:3.0f} %  {}/{} spp  {:.2f} Mrays/s{}  {} left", 100 * p.fraction,
-                       p.samplesDone, samplesPerPixel, mraysPerSecond, error, duration(left));
+    return fmt::format("{:3.0f} %  {}/{} spp{}{}  {} left", 100 * p.fraction, p.samplesDone,
+                       samplesPerPixel, speed, error, duration(left));
 }
 
 }  // namespace

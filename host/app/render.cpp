@@ -10,14 +10,17 @@
 #include "app/outputs.h"
 #include "app/partial.h"
 #include "app/progress.h"
+#include "app/sample_range.h"
 #include "app/shading_options.h"
 #include "app/stats.h"
 #include "app/stop_options.h"
 #include "film/layers.h"
 #include "render/prepare.h"
+#include "render/scene_hash.h"
 #include "sahl_version.h"
 #include "util/error.h"
 #include "util/gzip.h"
+#include "util/hash.h"
 #include "util/interrupt.h"
 #include "util/messages.h"
 
@@ -36,6 +39,9 @@ struct RenderOptions {
     std::optional<CropWindow> crop;
     std::optional<double> partialSeconds;
     StopOptions stop;
+    RangeOptions range;
+    SampleRange samples;  ///< to render of every pixel; known with the scene, as are:
+    SceneHashes hashes;
 };
 
 void addOutputOptions(CLI::App& command, RenderOptions& options)
@@ -67,6 +73,10 @@ void chooseDefaultOutputs(RenderOptions& options)
     if (!options.output.paths.empty()) return;
     fs::path stem = withoutGz(options.common.scenePath).stem();
     if (stem.empty()) throw usageError("name an output with -o");
+    if (options.range.isPart()) {
+        options.output.paths = {stem.string() + partSuffix(options.range) + ".exr"};
+        return;
+    }
     options.output.paths = {stem.string() + ".exr", stem.string() + ".png"};
 }
 
@@ -76,6 +86,7 @@ std::vector<fs::path> checkOutputs(const RenderOptions& options)
     checkToneOptions(options.output.tone);
     checkMapOptions(options.maps);
     std::vector<fs::path> outputs = options.output.paths;
+    checkRangeOptions(options.range, outputs);
     checkPicturePaths(outputs);
     for (const MapOptions::Request& map : options.maps.maps) {
         checkPngPath("--map", map.path, outputs);
@@ -101,7 +112,8 @@ std::vector<ImageChannel> firstHitLayers(const RenderOptions& options, const Pre
                                          const RenderPlan& plan, Device& device)
 {
     if (!options.output.firstHits && !needFirstHits(options.maps)) return {};
-    uint32_t samples = std::min(BLOCK_SIZE, plan.sampleCount);
+    // Of the whole picture, so that every part of it has the same.
+    uint32_t samples = std::min(BLOCK_SIZE, mostSamples(prepared.scene.settings));
     return firstHitChannels(renderFirstHits(device, plan, samples), samples,
                             prepared.scene.objectStarts);
 }
@@ -112,8 +124,8 @@ AdaptiveReport reportOf(const RenderSettings& settings, const RenderResult& resu
             filmError(result.film, settings.adaptive.targetError)};
 }
 
-ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_t samplesTaken,
-                         const Device& device)
+ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, const SampleRange& taken,
+                         const SceneHashes& hashes, const Device& device)
 {
     DeviceInfo info = device.info();
     ImageMetadata metadata = describeShading(scene.settings);
@@ -124,8 +136,10 @@ ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_
                                  {"sahl.varianceOver", "samples"},
                                  {"sahl.seed", std::to_string(scene.settings.seed)},
                                  {"sahl.maxBounces", std::to_string(scene.settings.maxBounces)},
-                                 {"sahl.firstSample", "0"},
-                                 {"sahl.sampleCount", std::to_string(samplesTaken)},
+                                 {"sahl.sceneHash", hashText(hashes.scene)},
+                                 {"sahl.treeHash", hashText(hashes.tree)},
+                                 {"sahl.firstSample", std::to_string(taken.first)},
+                                 {"sahl.sampleCount", std::to_string(taken.end - taken.first)},
                                  {"sahl.passes", std::to_string(result.passes)},
                                  {"sahl.interrupted", result.interrupted ? "yes" : "no"},
                                  {"sahl.device", info.name},
@@ -133,6 +147,12 @@ ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, uint32_
     metadata.merge(stopMetadata(result));
     if (isAdaptive(scene.settings)) metadata.merge(adaptiveMetadata(reportOf(scene.settings, result)));
     return metadata;
+}
+
+/// The part of the range that so many whole passes have rendered.
+SampleRange takenOf(const SampleRange& range, uint32_t passes)
+{
+    return {range.first, std::min(range.end, range.first + passes * BLOCK_SIZE)};
 }
 
 /// Looks at --crop now that the size of the picture is known. Returns the size of the film.
@@ -185,8 +205,11 @@ void writeAll(const RenderOptions& options, const Film& film, std::vector<ImageC
 void writePictures(const RenderOptions& options, const Scene& scene, const RenderResult& result,
                    const Device& device, std::vector<ImageChannel> firstHits, bool partial)
 {
-    uint32_t samplesTaken = std::min(mostSamples(scene.settings), result.passes * BLOCK_SIZE);
-    ImageMetadata metadata = metadataOf(scene, result, samplesTaken, device);
+    const SampleRange taken = takenOf(options.samples, result.passes);
+    ImageMetadata metadata = metadataOf(scene, result, taken, options.hashes, device);
+    if (options.output.film)
+        metadata.merge(filmMetadata(result.film, {{taken}, mostSamples(scene.settings)}));
+    if (options.range.shard) metadata["sahl.shard"] = shardText(*options.range.shard);
     if (options.crop) metadata["sahl.crop"] = cropText(*options.crop);
     if (partial) metadata["sahl.partial"] = "yes";
     writeAll(options, result.film, std::move(firstHits), metadata, partial);
@@ -216,6 +239,16 @@ RenderResult renderLight(const RenderOptions& options, const Scene& scene, const
     return result;
 }
 
+/// Which part of the picture this is.
+void sayRange(const RenderOptions& options)
+{
+    if (options.common.quiet) return;
+    const std::optional<ArrayTask>& shard = options.range.shard;
+    std::string part = shard ? "shard " + shardText(*shard) : "range";
+    if (shard && !shard->variable.empty()) part += fmt::format(" (by {})", shard->variable);
+    say("{}: samples {}\n", part, rangeText(options.samples));
+}
+
 /// What a signal left of the picture. Without a single sample no file is replaced.
 void sayInterrupted(const RenderOptions& options, const RenderSettings& settings,
                     const RenderResult& result)
@@ -224,10 +257,11 @@ void sayInterrupted(const RenderOptions& options, const RenderSettings& settings
     if (result.film.counters.cameraRays == 0) {
         say("sahl: interrupted before the first sample; nothing is saved\n");
     } else if (result.passes == 0) {
-        say("sahl: interrupted in the first pass; saving its finished tiles, the rest is black\n");
+        say("sahl: interrupted in the first pass; saving its finished tiles, the rest is black{}\n",
+            options.range.wantsFilm() ? ", without a film to merge" : "");
     } else {
         say("sahl: interrupted; saving {}{} of {} samples per pixel\n", isAdaptive(settings) ? "up to " : "",
-            result.passes * BLOCK_SIZE, mostSamples(settings));
+            result.passes * BLOCK_SIZE, options.samples.end - options.samples.first);
     }
 }
 
@@ -248,14 +282,16 @@ int runRender(RenderOptions& options)
     setQuiet(options.common.quiet);
     chooseDefaultOutputs(options);
     std::vector<fs::path> outputs = checkOutputs(options);
+    options.output.film = options.range.wantsFilm();
 
     Stopwatch watch;
     StageSeconds seconds;
     RenderSettings filmSettings;
     PreparedScene prepared = prepareSceneFor(options.common, [&](const Scene& scene) {
         refuseToReplaceInputs(outputs);
+        options.samples = rangeOf(options.range, scene.settings);
         filmSettings = applyCrop(options, scene.settings);
-        requireFilmMemory(filmSettings, 1);
+        requireFilmMemory(filmSettings, options.output.film ? 2 : 1);
         seconds.load = watch.lap();
     });
     seconds.build = watch.lap();
@@ -264,8 +300,10 @@ int runRender(RenderOptions& options)
     seconds.upload = watch.lap();
 
     const RenderSettings& settings = prepared.scene.settings;
-    RenderPlan plan = {filmSettings.width, filmSettings.height, 0, mostSamples(settings),
-                       options.common.tileSize};
+    options.hashes = hashesOf(prepared.deviceScene());
+    if (options.range.isPart()) sayRange(options);
+    RenderPlan plan = {filmSettings.width, filmSettings.height, options.samples.first,
+                       options.samples.end - options.samples.first, options.common.tileSize};
     if (options.crop) {
         plan.left = options.crop->x;
         plan.top = options.crop->y;
@@ -276,6 +314,7 @@ int runRender(RenderOptions& options)
     RenderResult result = renderLight(options, prepared.scene, plan, firstHits, *device);
     seconds.render = watch.lap();
 
+    if (result.passes == 0) options.output.film = false;  // its pixels have different samples
     if (result.interrupted) sayInterrupted(options, settings, result);
     if (result.film.counters.cameraRays == 0) return interruptedExitCode();
 
@@ -317,6 +356,7 @@ Command addRenderCommand(CLI::App& app)
         ->type_name("SCENE");
     addOutputOptions(*command, *options);
     addMapOptions(*command, options->maps);
+    addRangeOptions(*command, options->range);
     addSceneOptions(*command, options->common);
     addStopOptions(*command, options->stop);
     addCropOption(*command, options->crop);

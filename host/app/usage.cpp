@@ -58,6 +58,15 @@ std::string unexpected(const CLI::App& app, const std::vector<std::string>& word
     return fmt::format("unexpected '{}' after 'sahl {}'", word, command.get_name());
 }
 
+/// What a command cannot do without.
+const char* inputOf(const std::string& command)
+{
+    if (command == "tonemap") return "a picture: an .exr, .hdr or .pfm file";
+    if (command == "compare") return "two pictures: .exr, .hdr, .pfm or .png files";
+    if (command == "merge") return "parts of a picture: .exr files by sahl render --shard, and -o";
+    return "a scene: a .json, .obj or .ply file";
+}
+
 /// The option that a message of the library starts with ("--spp: 1 required ..."), or null.
 const CLI::Option* optionNamedIn(const CLI::App& command, const std::string& message)
 {
@@ -89,9 +98,7 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error)
         return "a command is missing; choose " + enumeration(commandsOf(app));
     }
     if (kind == CLI::ExitCodes::RequiredError) {
-        const char* input = command.get_name() == "tonemap" ? "a picture: an .exr, .hdr or .pfm file"
-                                                            : "a scene: a .json, .obj or .ply file";
-        return fmt::format("'sahl {}' needs {}", command.get_name(), input);
+        return fmt::format("'sahl {}' needs {}", command.get_name(), inputOf(command.get_name()));
     }
     const CLI::Option* option = optionNamedIn(command, error.what());
     if (option && option->get_items_expected_max() == 0)
@@ -113,7 +120,7 @@ std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) con
     for (const CLI::Option* option : app->get_options()) {
         if (!option->get_positional()) continue;
         std::string type = option->get_type_name();
-        words += option->get_required() ? type : "[" + type + "]";
+        words += (words.empty() ? "" : " ") + (option->get_required() ? type : "[" + type + "]");
     }
     return fmt::format("\nUsage: {} {}{}[options]\n", name, words, words.empty() ? "" : " ");
 }

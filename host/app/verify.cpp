@@ -1,10 +1,10 @@
 // sahl verify: does the device compute what the text says?
 
-#include "render/verify.h"
+#include "app/verify.h"
+
 #include "app/adaptive.h"
 #include "app/commands.h"
 #include "app/option_kinds.h"
-#include "app/options.h"
 #include "app/outputs.h"
 #include "app/progress.h"
 #include "app/stats.h"
@@ -18,12 +18,6 @@
 namespace sahl {
 
 namespace {
-
-struct VerifyOptions {
-    CommonOptions common;
-    std::string differencePath;
-    bool json = false;
-};
 
 nlohmann::ordered_json blockJson(const PixelBlock& block)
 {
@@ -43,21 +37,8 @@ nlohmann::ordered_json verifyJson(const Scene& scene, const Device& device, cons
     nlohmann::ordered_json json = {{"version", 1},
                                    {"scene", scene.name},
                                    {"device", side(device, result.deviceSeconds)},
-                                   {"reference", side(reference, result.referenceSeconds)},
-                                   {"equal", result.equal()},
-                                   {"differingPixels", result.differingPixels},
-                                   {"differingFilmBits", result.differingFilmBits},
-                                   {"counters", countersJson(result.deviceFilm.counters)}};
-    if (result.first) {
-        const Divergence& first = *result.first;
-        json["first"] = {{"x", first.x},
-                         {"y", first.y},
-                         {"sample", first.sample},
-                         {"bounce", first.bounce},
-                         {"stage", first.stage},
-                         {"device", blockJson(first.device)},
-                         {"reference", blockJson(first.reference)}};
-    }
+                                   {"reference", side(reference, result.referenceSeconds)}};
+    json.update(resultJson(result));
     return json;
 }
 
@@ -71,9 +52,7 @@ void printBlock(const char* who, const PixelBlock& block)
 void printVerdict(const Scene& scene, const Device& device, const Device& reference,
                   const VerifyResult& result)
 {
-    const RenderSettings& s = scene.settings;
-    answer("scene      {}, {}x{}, {}, {} bounces\n", scene.name, s.width, s.height, samplesText(s),
-           s.maxBounces);
+    answer("scene      {}\n", sceneText(scene));
     for (const auto& [who, d] :
          {std::pair{"device   ", &device}, std::pair{"reference", &reference}}) {
         answer("{}  {} ({})\n", who, d->info().name, d->info().driver);
@@ -82,8 +61,8 @@ void printVerdict(const Scene& scene, const Device& device, const Device& refere
     answer("compared   {} pixels: film integers, path digests, counters ({} rays, {} box tests, {} "
            "primitive "
            "tests)\n",
-           uint64_t{s.width} * s.height, c.cameraRays + c.indirectRays + c.shadowRays, c.boxTests,
-           c.primitiveTests);
+           result.deviceFilm.digest.size(), c.cameraRays + c.indirectRays + c.shadowRays,
+           c.boxTests, c.primitiveTests);
     if (result.equal()) {
         answer("EQUAL      0 differing bits\n");
         return;
@@ -91,16 +70,18 @@ void printVerdict(const Scene& scene, const Device& device, const Device& refere
     answer("DIFFERENT  {} pixels, {} bits of the film\n", result.differingPixels,
            result.differingFilmBits);
     if (!result.first) return;
-    const Divergence& first = *result.first;
-    answer("first at pixel ({}, {}), sample {}, bounce {}: {}\n", first.x, first.y, first.sample,
-           first.bounce, first.stage);
-    printBlock("device", first.device);
-    printBlock("reference", first.reference);
+    answer("first at pixel {}\n", placeText(*result.first));
+    printBlock("device", result.first->device);
+    printBlock("reference", result.first->reference);
 }
 
 int runVerify(VerifyOptions& options)
 {
     setQuiet(options.common.quiet);
+    if (options.allDevices && !options.differencePath.empty()) {
+        throw usageError("--difference is for one device; name it with --device instead of "
+                         "--all-devices");
+    }
     std::vector<fs::path> outputs;
     if (!options.differencePath.empty()) outputs.push_back(options.differencePath);
     checkPicturePaths(outputs);
@@ -108,26 +89,11 @@ int runVerify(VerifyOptions& options)
         refuseToReplaceInputs(outputs);
         requireFilmMemory(scene.settings, 2);
     });
+    if (options.allDevices) return verifyAllDevices(options, prepared);
     std::unique_ptr<Device> device = openDeviceFor(options.common);
     std::unique_ptr<Device> reference = makeCpuDevice(options.common.deviceOptions);
 
-    const RenderSettings& settings = prepared.scene.settings;
-    ProgressPrinter printer(options.common.progress, options.common.quiet || options.json,
-                            mostSamples(settings));
-    Stopwatch watch;
-    auto report = [&](double fraction) {
-        RenderProgress progress;
-        progress.fraction = fraction;
-        progress.seconds = watch.total();
-        printer.update(progress);
-    };
-    VerifyResult result =
-        isAdaptive(settings)
-            ? verifyAdaptive(*device, *reference, prepared.deviceScene(), settings.adaptive,
-                             options.common.tileSize, report)
-            : verifyDevice(*device, *reference, prepared.deviceScene(), settings.spp,
-                           options.common.tileSize, report);
-    printer.finish();
+    VerifyResult result = verifyWithProgress(*device, *reference, prepared, options);
     if (result.interrupted) {
         say("sahl: interrupted; nothing is decided\n");
         return interruptedExitCode();
@@ -148,6 +114,62 @@ int runVerify(VerifyOptions& options)
 
 }  // namespace
 
+std::string sceneText(const Scene& scene)
+{
+    const RenderSettings& s = scene.settings;
+    return fmt::format("{}, {}x{}, {}, {} bounces", scene.name, s.width, s.height, samplesText(s),
+                       s.maxBounces);
+}
+
+std::string placeText(const Divergence& divergence)
+{
+    return fmt::format("({}, {}), sample {}, bounce {}: {}", divergence.x, divergence.y,
+                       divergence.sample, divergence.bounce, divergence.stage);
+}
+
+nlohmann::ordered_json resultJson(const VerifyResult& result)
+{
+    nlohmann::ordered_json json = {{"equal", result.equal()},
+                                   {"differingPixels", result.differingPixels},
+                                   {"differingFilmBits", result.differingFilmBits},
+                                   {"counters", countersJson(result.deviceFilm.counters)}};
+    if (result.first) {
+        const Divergence& first = *result.first;
+        json["first"] = {{"x", first.x},
+                         {"y", first.y},
+                         {"sample", first.sample},
+                         {"bounce", first.bounce},
+                         {"stage", first.stage},
+                         {"device", blockJson(first.device)},
+                         {"reference", blockJson(first.reference)}};
+    }
+    return json;
+}
+
+VerifyResult verifyWithProgress(Device& device, Device& reference, const PreparedScene& prepared,
+                                const VerifyOptions& options)
+{
+    const RenderSettings& settings = prepared.scene.settings;
+    const uint32_t samples = mostSamples(settings);
+    const uint32_t tileSize = options.common.tileSize;
+    ProgressPrinter printer(options.common.progress, options.common.quiet || options.json, samples);
+    Stopwatch watch;
+    auto report = [&](double fraction) {
+        RenderProgress progress;
+        progress.fraction = fraction;
+        progress.samplesDone = static_cast<uint32_t>(fraction * samples);
+        progress.seconds = watch.total();
+        printer.update(progress);
+    };
+    VerifyResult result = isAdaptive(settings)
+                              ? verifyAdaptive(device, reference, prepared.deviceScene(),
+                                               settings.adaptive, tileSize, report)
+                              : verifyDevice(device, reference, prepared.deviceScene(),
+                                             settings.spp, tileSize, report);
+    printer.finish();
+    return result;
+}
+
 Command addVerifyCommand(CLI::App& app)
 {
     auto options = std::make_shared<VerifyOptions>();
@@ -155,9 +177,10 @@ Command addVerifyCommand(CLI::App& app)
         app.add_subcommand("verify", "compare a device with the CPU reference, bit for bit")
             ->group("Commands");
     command
-        ->add_option("scene", options->common.scenePath,
-                     "scene (.json), mesh (.obj, .ply) or saved scene (.sahl);\nwithout one a small "
-                     "built-in scene")
+        ->add_option(
+            "scene", options->common.scenePath,
+            "scene (.json), mesh (.obj, .ply) or saved scene (.sahl);\nwithout one a small "
+            "built-in scene")
         ->type_name("SCENE");
     command
         ->add_option("--difference", options->differencePath,
@@ -165,13 +188,17 @@ Command addVerifyCommand(CLI::App& app)
         ->type_name("FILE")
         ->group("Output");
     addFlag(*command, "--json", options->json, "the result as JSON on stdout")->group("Output");
+    addFlag(*command, "--all-devices", options->allDevices,
+            "every Vulkan device of this machine, as a table")
+        ->group("Device");
     addSceneOptions(*command, options->common);
     addDeviceOptions(*command, options->common);
     addMessageOptions(*command, options->common);
     command->footer("Exit code 0: equal; 1: different, with the first pixel, sample and bounce "
                     "that are.\n\nExamples:\n"
                     "  sahl verify\n"
-                    "  sahl verify scene.json --device 0 --spp 8 --difference where.exr");
+                    "  sahl verify scene.json --device 0 --spp 8 --difference where.exr\n"
+                    "  sahl verify scene.json --all-devices");
     return [options] { return runVerify(*options); };
 }
 

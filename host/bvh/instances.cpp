@@ -105,7 +105,7 @@ double reachOf(const Box& box)
     return std::max(largest(glm::abs(glm::dvec3(box.lo))), largest(glm::abs(glm::dvec3(box.hi))));
 }
 
-/// Appends a tree and returns its root's reference there.
+/// Appends a tree without instances and returns its root's reference there.
 uint appendTree(const Bvh& tree, Bvh& all)
 {
     const uint nodes = static_cast<uint>(all.nodes.size());
@@ -127,7 +127,6 @@ uint appendTree(const Bvh& tree, Bvh& all)
 struct ObjectTrees {
     std::vector<Bvh> trees;  ///< one for each object; empty when it is not placed
     std::vector<Box> boxes;
-    uint32_t depth = 0;   ///< of the deepest
     uint64_t stored = 0;  ///< primitives
 };
 
@@ -144,7 +143,6 @@ ObjectTrees buildObjects(std::span<const std::vector<Primitive>> objects,
         tree = buildTree({object, {}, {}}, OBJECT_LEVELS, build, threads);
         for (const Primitive& primitive : object)
             grow(result.boxes[placement.object], boxOf(primitive));
-        result.depth = std::max(result.depth, tree.statistics.depth);
         result.stored += object.size();
     }
     return result;
@@ -222,6 +220,23 @@ ObjectInstance makeInstance(const Placement& placement, const Box& object, doubl
     return instance;
 }
 
+std::vector<uint> appendObjects(std::span<const Bvh> objects, Bvh& world)
+{
+    std::vector<uint> roots;
+    BvhStatistics& all = world.statistics;
+    uint32_t deepest = 0;
+    for (const Bvh& object : objects) {
+        const BvhStatistics& own = object.statistics;
+        roots.push_back(appendTree(object, world));
+        all.innerNodes += own.innerNodes;
+        all.leaves += own.leaves;
+        all.largestLeaf = std::max(all.largestLeaf, own.largestLeaf);
+        deepest = std::max(deepest, own.depth);
+    }
+    all.depth += 1 + deepest;
+    return roots;
+}
+
 Bvh buildTwoLevels(std::span<const Primitive> primitives,
                    std::span<const std::vector<Primitive>> objects,
                    std::span<const Placement> placements, double reach, BvhBuild build,
@@ -256,26 +271,16 @@ Bvh buildTwoLevels(std::span<const Primitive> primitives,
         instance.firstNumber = static_cast<uint>(number);
         number += objects[placement.object].size();
         instanceBoxes.push_back({instance.lo, instance.hi});
-        costs.push_back(1 + built.trees[placement.object].statistics.sahCost);
+        costs.push_back(costOfInstance(built.trees[placement.object]));
     }
 
     Bvh all = buildTree({primitives, instanceBoxes, costs}, WORLD_LEVELS, build, threads);
-    std::vector<uint> roots(objects.size(), REF_NONE);
-    for (size_t i = 0; i < objects.size(); i++) {
-        const Bvh& tree = built.trees[i];
-        if (tree.primitives.empty()) continue;
-        roots[i] = appendTree(tree, all);
-        all.statistics.innerNodes += tree.statistics.innerNodes;
-        all.statistics.leaves += tree.statistics.leaves;
-        all.statistics.largestLeaf =
-            std::max(all.statistics.largestLeaf, tree.statistics.largestLeaf);
-    }
+    const std::vector<uint> roots = appendObjects(built.trees, all);
     size_t next = 0;
     for (const Placement& placement : placements) {
         if (!objects[placement.object].empty()) instances[next++].rootRef = roots[placement.object];
     }
     all.instances = std::move(instances);
-    all.statistics.depth += 1 + built.depth;
     all.statistics.primitivesSeen = number;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     all.statistics.seconds = elapsed.count();

@@ -32,6 +32,17 @@ Box placedBox(const Placement& placement, const Box& box);
 /// when the placement is not placeable, or its box is not finite.
 ObjectInstance makeInstance(const Placement& placement, const Box& object, double reach);
 
+/// What a visit of an instance costs in the tree of the world, by that of its object: the tree below,
+/// and the box that is tested once more.
+inline double costOfInstance(const Bvh& object)
+{
+    return 1 + object.statistics.sahCost;
+}
+
+/// Appends the trees of objects, none with instances in it, to the world's, one after the other.
+/// The statistics become those of all. Returns the references to their roots.
+std::vector<uint> appendObjects(std::span<const Bvh> objects, Bvh& world);
+
 /// Builds all trees; the instances are in the order of `placements`. Primitives of objects count
 /// from 0 in each; numbers of instances follow those of the world.
 ///   reach  no ray starts at a coordinate beyond it, other than on the surfaces given here [m]

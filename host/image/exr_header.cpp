@@ -113,12 +113,11 @@ void checkVersion(const ImageFile& file, uint32_t version)
     }
 }
 
-/// Whether the picture is grey. Throws unless it has all of R, G, B, or else Y without chroma.
-bool checkChannels(const ImageFile& file, FieldReader reader)
+std::map<std::string, ExrChannel> readChannels(const ImageFile& file, FieldReader reader)
 {
-    std::map<std::string, bool> fullResolution;
+    std::map<std::string, ExrChannel> channels;
     for (std::string name = reader.name(); !name.empty(); name = reader.name()) {
-        if (fullResolution.size() == MAX_CHANNELS) {
+        if (channels.size() == MAX_CHANNELS) {
             throw badInput("{}: has more than {} channels", file.name, MAX_CHANNELS);
         }
         uint32_t pixelType = reader.u32();
@@ -129,34 +128,35 @@ bool checkChannels(const ImageFile& file, FieldReader reader)
             throw badInput("{}: EXR channel \"{}\" has type {} and sampling {} x {}", file.name,
                            name, pixelType, xSampling, ySampling);
         }
-        fullResolution[name] = xSampling == 1 && ySampling == 1;
+        channels[name] = {static_cast<ExrKind>(pixelType), xSampling == 1 && ySampling == 1};
     }
-    auto has = [&](const char* name) { return fullResolution.count(name) > 0; };
+    return channels;
+}
+
+/// Whether the picture is grey. Throws unless it has all of R, G, B, or else Y without chroma.
+bool checkChannels(const ImageFile& file, const std::map<std::string, ExrChannel>& channels)
+{
+    auto has = [&](const char* name) { return channels.count(name) > 0; };
     bool rgb = has("R") && has("G") && has("B");
     if (!rgb && (!has("Y") || has("RY") || has("BY"))) {
         std::string names;
-        for (const auto& [name, full] : fullResolution) names += (names.empty() ? "" : ", ") + name;
+        for (const auto& [name, channel] : channels) names += (names.empty() ? "" : ", ") + name;
         if (names.size() > 200) names = names.substr(0, 200) + " ...";
         throw badInput("{}: needs channels R, G, B, or Y alone; it has {}", file.name,
                        names.empty() ? "none" : names);
     }
     for (const char* name : {"R", "G", "B", "Y"}) {
         bool wanted = rgb == (std::string_view(name) != "Y");
-        if (wanted && !fullResolution[name]) {
+        if (wanted && !channels.at(name).fullResolution) {
             throw badInput("{}: channel {} is stored at a lower resolution", file.name, name);
         }
     }
     return !rgb;
 }
 
-struct Window {
-    int64_t minX, minY, maxX, maxY;
-    bool operator==(const Window&) const = default;
-};
-
-Window readWindow(FieldReader reader)
+ExrWindow readWindow(FieldReader reader)
 {
-    Window window = {};
+    ExrWindow window;
     for (int64_t* edge : {&window.minX, &window.minY, &window.maxX, &window.maxY}) {
         *edge = reader.i32();
     }
@@ -192,6 +192,16 @@ void checkLength(const ImageFile& file, const Attributes& attributes, bool tiled
     }
 }
 
+ImageMetadata textsOf(const Attributes& attributes)
+{
+    ImageMetadata texts;
+    for (const auto& [name, attribute] : attributes) {
+        if (attribute.type != "string") continue;
+        texts[name].assign(attribute.value.begin(), attribute.value.end());
+    }
+    return texts;
+}
+
 bool isRec709(const ImageFile& file, const Attributes& attributes)
 {
     auto found = attributes.find("chromaticities");
@@ -204,6 +214,13 @@ bool isRec709(const ImageFile& file, const Attributes& attributes)
 }
 
 }  // namespace
+
+void requireExrMagic(const ImageFile& file)
+{
+    if (file.bytes.empty()) throw badInput("{}: the file is empty", file.name);
+    FieldReader reader = {file, file.bytes};
+    if (reader.u32() != 20000630) throw badInput("{}: is not an EXR file", file.name);
+}
 
 ExrHeader checkExrHeader(const ImageFile& file)
 {
@@ -219,8 +236,8 @@ ExrHeader checkExrHeader(const ImageFile& file)
         }
     }
 
-    const Window data = readWindow(require(file, attributes, "dataWindow", "box2i"));
-    const Window display = readWindow(require(file, attributes, "displayWindow", "box2i"));
+    const ExrWindow data = readWindow(require(file, attributes, "dataWindow", "box2i"));
+    const ExrWindow display = readWindow(require(file, attributes, "displayWindow", "box2i"));
     const int64_t width = data.maxX - data.minX + 1;
     const int64_t height = data.maxY - data.minY + 1;
     requireImageSize(file, width, height);
@@ -230,10 +247,13 @@ ExrHeader checkExrHeader(const ImageFile& file)
     header.minY = static_cast<int32_t>(data.minY);
     header.width = static_cast<uint32_t>(width);
     header.height = static_cast<uint32_t>(height);
-    header.grey = checkChannels(file, require(file, attributes, "channels", "chlist"));
+    header.channels = readChannels(file, require(file, attributes, "channels", "chlist"));
+    header.grey = checkChannels(file, header.channels);
     checkLength(file, attributes, (version & FLAG_TILED) != 0, reader.pos, header);
     header.rec709 = isRec709(file, attributes);
     header.cropped = data != display;
+    header.display = display;
+    header.texts = textsOf(attributes);
     return header;
 }
 

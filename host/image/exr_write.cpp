@@ -1,4 +1,4 @@
-// EXR out: float32 channels in zip-compressed scanlines, through OpenEXR into memory.
+// EXR out: float32 and uint32 channels in zip-compressed scanlines, through OpenEXR into memory.
 #include "image/image.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -44,7 +44,8 @@ Imath::Box2i windowOf(uint32_t left, uint32_t top, uint32_t width, uint32_t heig
 
 std::vector<uint8_t> encodeExr(const Image& image, const ImageMetadata& metadata,
                                std::span<const ImageChannel> channels,
-                               const std::optional<ImagePlace>& place)
+                               const std::optional<ImagePlace>& place,
+                               std::span<const IntegerChannel> integers)
 {
     assert(image.width > 0 && image.height > 0);
     assert(image.rgb.size() == size_t{3} * image.width * image.height);
@@ -69,6 +70,12 @@ std::vector<uint8_t> encodeExr(const Image& image, const ImageMetadata& metadata
         frame.insert(channel.name,
                      Imf::Slice::Make(Imf::FLOAT, channel.values.data(), header.dataWindow(),
                                       sizeof(float), sizeof(float) * image.width));
+    }
+    for (const IntegerChannel& channel : integers) {
+        header.channels().insert(channel.name, Imf::Channel(Imf::UINT));
+        frame.insert(channel.name,
+                     Imf::Slice::Make(Imf::UINT, channel.first, header.dataWindow(), channel.stride,
+                                      channel.stride * image.width));
     }
     std::vector<uint8_t> bytes;
     MemoryOutput stream(bytes);

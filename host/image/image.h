@@ -39,18 +39,28 @@ struct ImageChannel {
     std::vector<float> values;  ///< width * height, top row first
 };
 
+/// One more channel of an EXR file, of 32-bit integers that are read where they lie: that of pixel i is
+/// at first + i * stride, pixels as above.
+struct IntegerChannel {
+    std::string name;
+    const std::byte* first = nullptr;
+    size_t stride = sizeof(uint32_t);  ///< [bytes]
+};
+
 /// Where a picture lies in a larger one [pixels].
 struct ImagePlace {
     uint32_t left = 0, top = 0;
     uint32_t fullWidth = 0, fullHeight = 0;
+    bool operator==(const ImagePlace&) const = default;
 };
 
 /// Encoders: the complete file in memory, to be written by writeFileAtomically.
-/// EXR: float32, ZIP; `channels` beside R, G and B. With a place the data window is the picture, the
-/// display window the larger one.
+/// EXR: float32, ZIP; `channels` and `integers` beside R, G and B. With a place the data window is the
+/// picture, the display window the larger one.
 std::vector<uint8_t> encodeExr(const Image& image, const ImageMetadata& metadata,
                                std::span<const ImageChannel> channels = {},
-                               const std::optional<ImagePlace>& place = {});
+                               const std::optional<ImagePlace>& place = {},
+                               std::span<const IntegerChannel> integers = {});
 std::vector<uint8_t> encodePng(const Image8& image, const ImageMetadata& metadata);
 std::vector<uint8_t> encodePfm(const Image& image);
 

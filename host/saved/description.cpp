@@ -183,19 +183,6 @@ void applySceneOptions(const SceneOptions& options, Scene& scene)
         scene.probe.filterMode = probeFilter(*options.probeFilter);
 }
 
-/// Boxes of instances hold for rays from no farther away than the saved camera; a picture of
-/// another shape can move the camera.
-void requireReach(const PreparedScene& prepared, const Camera& saved)
-{
-    const RenderSettings& settings = prepared.scene.settings;
-    if (prepared.deviceScene().instances.empty()) return;
-    if (reachOf(prepared.scene.camera) <= reachOf(saved)) return;
-    throw usageError(
-        "{}: a picture of {} x {} pixels moves the camera farther away than the tree of "
-        "this saved scene allows; save the original scene with that --width and --height",
-        prepared.scene.name, settings.width, settings.height);
-}
-
 }  // namespace
 
 Json describe(const PreparedScene& prepared)
@@ -218,8 +205,8 @@ Json describe(const PreparedScene& prepared)
     return json;
 }
 
-void readDescription(const JsonDocument& document, const std::vector<std::string>& more,
-                     const SceneOptions& options, PreparedScene& prepared)
+Camera readDescription(const JsonDocument& document, const std::vector<std::string>& more,
+                       const SceneOptions& options, PreparedScene& prepared)
 {
     KeySet keys = DESCRIPTION;
     keys.keys.insert(keys.keys.end(), more.begin(), more.end());
@@ -241,11 +228,21 @@ void readDescription(const JsonDocument& document, const std::vector<std::string
     const CameraDescription description = readCameraDescription(camera);
     try {
         placeCamera(scene, description);
-        requireReach(prepared, makeCamera(description, saved.width, saved.height));
+        return makeCamera(description, saved.width, saved.height);
     } catch (const Error& error) {
-        if (error.kind != ErrorKind::badInput) throw;
         throw errorAt(document, camera.node(), error.what());
     }
+}
+
+void requireReach(const PreparedScene& prepared, const Camera& saved)
+{
+    const RenderSettings& settings = prepared.scene.settings;
+    if (prepared.deviceScene().instances.empty()) return;
+    if (reachOf(prepared.scene.camera) <= reachOf(saved)) return;
+    throw usageError(
+        "{}: a picture of {} x {} pixels moves the camera farther away than the tree of "
+        "this saved scene allows; save the original scene with that --width and --height",
+        prepared.scene.name, settings.width, settings.height);
 }
 
 void replaceProbe(const SceneOptions& options, PreparedScene& prepared)

@@ -153,7 +153,8 @@ PreparedScene loadSavedScene(const fs::path& path, const SceneOptions& options)
 
     prepared.borrowed = arrays.device;
     prepared.scene.name = file;
-    readDescription(description, {"materialNames"}, options, prepared);
+    const Camera saved = readDescription(description, {"materialNames"}, options, prepared);
+    requireReach(prepared, saved);
     readMaterialNames(description, prepared);
     BvhStatistics& tree = prepared.bvh.statistics;
     const BvhStatistics found =

@@ -17,12 +17,13 @@ void writeSavedScene(const PreparedScene& prepared, const fs::path& path);
 /// and help; usage for options that need the original scene.
 PreparedScene loadSavedScene(const fs::path& path, const SceneOptions& options);
 
-/// Writes scene and tree as nested JSON: groups are arrays, leaves are typed objects. Throws as
-/// writeSavedScene does, and badInput for a scene with instances, which has many trees.
+/// Writes scene and trees as nested JSON: groups are arrays, leaves are typed objects; an object that
+/// instances place is written once. Throws as writeSavedScene does, and badInput for descriptions
+/// that are too long to be read back.
 void writeTreeJson(const PreparedScene& prepared, const fs::path& path);
 
 /// Reads what writeTreeJson writes, or anything of that form, however deep, in bounded memory
-/// beside the scene itself. Boxes are made from the leaves; the tree stays as it is.
+/// beside the scene itself. Boxes are made from the leaves; the trees stay as they are.
 /// `options` and errors as in loadSavedScene, with line and column.
 PreparedScene loadTreeJson(const fs::path& path, const SceneOptions& options);
 

@@ -1,4 +1,4 @@
-// The tree as nested JSON: a group is an array of its two groups or of the leaf's objects.
+// Trees as nested JSON: a group is an array of its two groups or of the leaf's objects.
 #include "saved/saved_scene.h"
 
 #include "saved/description.h"
@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <map>
 
 namespace sahl {
 
@@ -83,8 +84,45 @@ void printLeaves(TextFile& file, uint ref, const DeviceScene& scene)
     }
 }
 
+std::string textOf(const vec3& row0, const vec3& row1, const vec3& row2)
+{
+    return fmt::format("[{},{},{}]", textOf(row0), textOf(row1), textOf(row2));
+}
+
+/// What follows from the object is left out: its root, and the number of its first primitive.
+void printInstance(TextFile& file, uint index, uint object, const ObjectInstance& o)
+{
+    file.print("{{\"type\":\"instance\",\"number\":{},\"object\":{}", index, object);
+    if (o.material != NO_MATERIAL) file.print(",\"material\":{}", o.material);
+    file.print(",\"toObject\":{},\"toWorld\":{},\"translation\":{},\"lo\":{},\"hi\":{}}}",
+               textOf(o.toObject0, o.toObject1, o.toObject2),
+               textOf(o.toWorld0, o.toWorld1, o.toWorld2), textOf(o.translation), textOf(o.lo),
+               textOf(o.hi));
+}
+
+/// Numbers of objects by the references to their roots, as they lie in the arrays.
+using Objects = std::map<uint, uint>;
+
+/// Of the primitives of a tree: its leftmost leaf.
+uint firstPrimitive(uint ref, const DeviceScene& scene)
+{
+    while ((ref & REF_LEAF) == 0) ref = scene.nodes[ref].ref0;
+    return (ref & ~REF_LEAF) >> LEAF_COUNT_BITS;
+}
+
+Objects objectsOf(const DeviceScene& scene)
+{
+    std::map<uint, uint> roots;  // by their first primitives
+    for (const ObjectInstance& o : scene.instances)
+        roots.emplace(firstPrimitive(o.rootRef, scene), o.rootRef);
+    Objects objects;
+    for (const auto& [first, root] : roots)
+        objects.emplace(root, static_cast<uint>(objects.size()));
+    return objects;
+}
+
 /// Without recursion: what is still to be printed lies on a stack.
-void printTree(TextFile& file, uint rootRef, const DeviceScene& scene)
+void printTree(TextFile& file, uint rootRef, const DeviceScene& scene, const Objects& objects)
 {
     struct Piece {
         uint ref;
@@ -102,6 +140,10 @@ void printTree(TextFile& file, uint rootRef, const DeviceScene& scene)
         pieces.push_back({0, "]"});
         if ((piece.ref & REF_LEAF) != 0) {
             printLeaves(file, piece.ref, scene);
+        } else if ((piece.ref & REF_INSTANCE) != 0) {
+            const uint index = piece.ref & ~REF_INSTANCE;
+            const ObjectInstance& instance = scene.instances[index];
+            printInstance(file, index, objects.at(instance.rootRef), instance);
         } else {
             const BvhNode& node = scene.nodes[piece.ref];
             pieces.push_back({node.ref1, nullptr});
@@ -109,6 +151,19 @@ void printTree(TextFile& file, uint rootRef, const DeviceScene& scene)
             pieces.push_back({node.ref0, nullptr});
         }
     }
+}
+
+/// Each once, however many instances place it.
+void printObjects(TextFile& file, const DeviceScene& scene, const Objects& objects)
+{
+    std::vector<uint> roots(objects.size());
+    for (const auto& [root, number] : objects) roots[number] = root;
+    file.print("\"objects\":[");
+    for (size_t i = 0; i < roots.size(); i++) {
+        if (i > 0) file.print(",\n");
+        printTree(file, roots[i], scene, {});
+    }
+    file.print("],\n");
 }
 
 nlohmann::ordered_json describeForTree(const PreparedScene& prepared, const DeviceScene& scene)
@@ -133,12 +188,6 @@ nlohmann::ordered_json describeForTree(const PreparedScene& prepared, const Devi
 void writeTreeJson(const PreparedScene& prepared, const fs::path& path)
 {
     const DeviceScene scene = prepared.deviceScene();
-    if (!scene.instances.empty()) {
-        throw badInput(
-            "{}: it has {} instances, and JSON holds one tree; save it as .sahl, or write "
-            "the shapes out where they are placed",
-            prepared.scene.name, scene.instances.size());
-    }
     const std::string description =
         describeForTree(prepared, scene)
             .dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -153,8 +202,11 @@ void writeTreeJson(const PreparedScene& prepared, const fs::path& path)
     for (size_t i = 0; i < scene.probeTexels.size(); i++) {
         file.print("{}{}", i == 0 ? "" : ",\n", textOf(vec3(scene.probeTexels[i])));
     }
-    file.print("],\n\"root\":");
-    printTree(file, prepared.bvh.rootRef, scene);
+    file.print("],\n");
+    const Objects objects = objectsOf(scene);
+    if (!objects.empty()) printObjects(file, scene, objects);
+    file.print("\"root\":");
+    printTree(file, prepared.bvh.rootRef, scene, objects);
     file.print("}}\n");
     file.commit();
 }

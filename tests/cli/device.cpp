@@ -24,6 +24,7 @@ protected:
     }
     const Json& first() const { return devices_["vulkan"][0]; }
     const Json& cpu() const { return devices_["cpu"]; }
+    size_t deviceCount() const { return devices_["vulkan"].size(); }
     std::string name(const Json& device) const { return device["name"]; }
     std::string driver(const Json& device) const { return device["driver"]; }
 
@@ -57,8 +58,8 @@ TEST_F(DeviceProgram, indexUuidAndName_chooseTheSameDevice)
 TEST_F(DeviceProgram, windowOfThePicture_equalsTheCpus)
 {
     auto windowOn = [&](const char* device) {
-        const Arguments arguments = {"render", "ball.json", "--device", device,  "--spp", "10",
-                                     "--crop", "5,3,7,6",   "-o",       "a.pfm"};
+        const Arguments arguments = {"render", "ball.json", "--device", device, "--spp",
+                                     "10",     "--crop",    "5,3,7,6",  "-o",   "a.pfm"};
         EXPECT_EQ(sahl(arguments, here()).exitCode, 0);
         return textOf(folder / "a.pfm");
     };
@@ -150,6 +151,38 @@ TEST_F(DeviceProgram, verifyAsJson_isForPrograms)
     EXPECT_FALSE(json.contains("first"));
 }
 
+TEST_F(DeviceProgram, verifyOfAllDevices_isATableOfEveryDeviceAndTheCpu)
+{
+    RunResult result = sahl({"verify", "ball.json", "--all-devices"}, here());
+    EXPECT_EQ(result.exitCode, 0) << result.out << result.err;
+    EXPECT_TRUE(result.out.starts_with("scene  ball.json, 16x12, 4 spp, 4 bounces\n"))
+        << result.out;
+    EXPECT_TRUE(std::regex_search(result.out, std::regex("\n    0  .*  EQUAL, 0 differing bits\n")))
+        << result.out;
+    EXPECT_HAS(result.out, name(first()));
+    EXPECT_HAS(result.out, driver(first()));
+    EXPECT_TRUE(std::regex_search(result.out, std::regex("\n  cpu  .*  the reference\n")))
+        << result.out;
+}
+
+TEST_F(DeviceProgram, verifyOfAllDevicesAsJson_hasAnEntryForEveryDevice)
+{
+    RunResult result = sahl({"verify", "ball.json", "--all-devices", "--json"}, here());
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    Json json = Json::parse(result.out);
+    EXPECT_EQ(json["equal"], true);
+    EXPECT_EQ(json["reference"]["name"], name(cpu()));
+    ASSERT_EQ(json["devices"].size(), deviceCount());
+    EXPECT_EQ(json["devices"][0]["uuid"], first()["uuid"]);
+    EXPECT_EQ(json["devices"][0]["equal"], true);
+    EXPECT_EQ(json["devices"][0]["counters"]["cameraRays"], 16 * 12 * 4);
+}
+
+TEST_F(DeviceProgram, verifyOfAllDevicesWithADifferencePicture_isAnErrorOfUsage)
+{
+    expectRefused(sahl({"verify", "--all-devices", "--difference", "d.exr"}), 2, "--difference");
+}
+
 /// A program whose reference has one bit of its text flipped: so it must find a difference.
 class FlippedProgram : public DeviceProgram {
 protected:
@@ -208,6 +241,18 @@ TEST_F(FlippedProgram, verifyUnderAdaptiveSampling_findsTheDifference)
     EXPECT_EQ(result.exitCode, 1) << result.out << result.err;
     EXPECT_HAS(result.out, "DIFFERENT ");
     EXPECT_HAS(result.out, "first at pixel (");
+}
+
+TEST_F(FlippedProgram, verifyOfAllDevices_namesTheFirstDifferenceOfEach)
+{
+    RunResult result = runProgram(SAHL_FLIPPED_PROGRAM, {"verify", "ball.json", "--all-devices"},
+                                  withoutLeakCheck(here()));
+    EXPECT_EQ(result.exitCode, 1) << result.out << result.err;
+    EXPECT_TRUE(std::regex_search(
+        result.out,
+        std::regex(
+            "    0  .*  DIFFERENT, \\d+ pixels, \\d+ bits; first at pixel \\(\\d+, \\d+\\)")))
+        << result.out;
 }
 
 TEST_F(FlippedProgram, verifyQuietly_stillTellsTheDifference)

@@ -55,6 +55,27 @@ TEST_F(SavedFiles, savedScenesRenderToTheSamePicture)
     EXPECT_NE(pictureOf("ball.sahl", {"--seed", "5"}), picture);
 }
 
+TEST_F(SavedFiles, savedScenesWithInstancesRenderToTheSamePicture)
+{
+    writeText(folder / "crowd.json", R"({"camera": {"eye": [0, 2, 6], "lookAt": [0, 0, 0]},
+        "film": {"width": 16, "height": 12}, "integrator": {"samplesPerPixel": 2},
+        "groups": {"ball": {"shapes": [{"type": "sphereMesh", "level": 1}]},
+                   "pair": {"shapes": [{"type": "instance", "of": "ball"},
+                                       {"type": "instance", "of": "ball", "transform": {"scale": 0.5,
+                                        "translate": [2, 0, 0]}}]}},
+        "shapes": [{"type": "instance", "of": "pair"},
+                   {"type": "instance", "of": "pair", "transform": {"scale": [1, -1, 1],
+                    "translate": [0, 1, -2]}}],
+        "environment": {"builtin": "studio"}})");
+    const RunResult saving = run({"bvh", "crowd.json", "-o", "crowd.sahl", "--json", "tree.json"});
+    ASSERT_EQ(saving.exitCode, 0) << saving.err;
+    ASSERT_EQ(run({"bvh", "tree.json", "-o", "again.sahl"}).exitCode, 0);
+    const std::string picture = pictureOf("crowd.json");
+    EXPECT_EQ(pictureOf("crowd.sahl"), picture);
+    EXPECT_EQ(pictureOf("tree.json"), picture);
+    EXPECT_EQ(pictureOf("again.sahl"), picture);
+}
+
 TEST_F(SavedFiles, savedScenes_takeTheOptionsOfThePicture)
 {
     const Arguments options = {"--width", "20", "--height",      "9",

@@ -37,31 +37,44 @@ protected:
         }
     }
 
+    /// Runs out of memory at the first call that can, in another run at the one `step` calls later,
+    /// and so on; of either kind of memory, and with staging every other time. Gives the number of
+    /// runs.
+    uint64_t failAtCalls(uint64_t step)
+    {
+        uint64_t runs = 0;
+        for (bool reached = true; reached; runs++) {
+            const VkResult result =
+                runs / 2 % 2 == 0 ? VK_ERROR_OUT_OF_DEVICE_MEMORY : VK_ERROR_OUT_OF_HOST_MEMORY;
+            FailAt failure = {runs * step, result, ""};
+            hooks_.onCall = [&](const std::string& name) { return failure(name); };
+            hooks_.discreteMemory = runs % 2 == 1;
+            try {
+                openAndRender(torus_);
+                EXPECT_FALSE(failure.reached()) << failure.name << " failed in silence";
+            } catch (const Error& error) {
+                EXPECT_EQ(error.kind, ErrorKind::deviceLost) << failure.name;
+                expectMentions(error, {"out of", "memory", "--device cpu"});
+            }
+            reached = failure.reached();
+        }
+        return runs;
+    }
+
     TorusScene torus_;
     VulkanHooks hooks_;
 };
 
-TEST_F(DeviceFaults, outOfMemoryAtAnyCall_isAnErrorAndLeavesNothingBehind)
+TEST_F(DeviceFaults, outOfMemoryAtEveryThirdCall_isAnErrorAndLeavesNothingBehind)
 {
-    bool reached = true;
-    uint64_t calls = 0;
-    for (; reached; calls++) {
-        // Either kind of memory, with staging every other time
-        const VkResult result =
-            calls / 2 % 2 == 0 ? VK_ERROR_OUT_OF_DEVICE_MEMORY : VK_ERROR_OUT_OF_HOST_MEMORY;
-        FailAt failure = {calls, result, ""};
-        hooks_.onCall = [&](const std::string& name) { return failure(name); };
-        hooks_.discreteMemory = calls % 2 == 1;
-        try {
-            openAndRender(torus_);
-            EXPECT_FALSE(failure.reached()) << failure.name << " failed in silence";
-        } catch (const Error& error) {
-            EXPECT_EQ(error.kind, ErrorKind::deviceLost) << failure.name;
-            expectMentions(error, {"out of", "memory", "--device cpu"});
-        }
-        reached = failure.reached();
-    }
-    EXPECT_GT(calls, 50u);
+    EXPECT_GT(failAtCalls(3), 50u / 3);
+}
+
+using LongDeviceFaults = DeviceFaults;
+
+TEST_F(LongDeviceFaults, outOfMemoryAtAnyCall_isAnErrorAndLeavesNothingBehind)
+{
+    EXPECT_GT(failAtCalls(1), 50u);
 }
 
 TEST_F(DeviceFaults, allocationFails_saysHowMuchWasNeededAndForWhat)

@@ -84,13 +84,6 @@ TEST_F(SavedInstanceFaults, aThousandTruncationsAndFlippedBitsAreRefused)
     }
 }
 
-TEST_F(SavedInstanceFaults, jsonHoldsOneTreeAndSaysSo)
-{
-    const PreparedScene scene = loadSavedScene(path, {});
-    EXPECT_CONTAINS(badInputOf([&] { writeTreeJson(scene, folder.path / "x.json"); }),
-                    "it has 3 instances, and JSON holds one tree; save it as .sahl");
-}
-
 TEST_F(SavedInstanceFaults, hostileContentsUnderRightHashesAreRefusedOrRender)
 {
     const int rendered = renderHostileVariants(path, 985, 400);

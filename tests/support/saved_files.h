@@ -51,6 +51,24 @@ inline fs::path instancesScene()
     return fs::path(__FILE__).parent_path() / "../scenes/instances.json";
 }
 
+/// A teapot placed 20 times in rows, each turned and scaled differently.
+inline std::string crowdScene()
+{
+    std::string placed;
+    for (int i = 0; i < 20; i++) {
+        placed += fmt::format(R"(, {{"type": "instance", "of": "pot", "transform": {{
+            "scale": {}, "rotateDeg": {{"axis": [0, 1, 0], "angle": {}}},
+            "translate": [{}, 0, {}]}}}})",
+                              0.1 + 0.01 * i, 37 * i, i % 5 - 2, -(i / 5));
+    }
+    return R"({"camera": {"eye": [0, 3, 5], "lookAt": [0, 0, -1]},
+        "film": {"width": 24, "height": 16}, "integrator": {"samplesPerPixel": 4},
+        "groups": {"pot": {"shapes": [{"type": "teapot", "subdivisions": 2}]}},
+        "shapes": [{"type": "rectangle", "corner": [-4, 0, 4], "edgeU": [8, 0, 0],
+                    "edgeV": [0, 0, -9]})" +
+           placed + R"(], "environment": {"radiance": [0.4, 0.5, 0.6]}})";
+}
+
 inline PreparedScene prepareText(const std::string& text, const SceneOptions& options = {})
 {
     return prepareScene(loadJson(text, options), BvhBuild::automatic, 2);

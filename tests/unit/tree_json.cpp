@@ -1,7 +1,6 @@
 // The tree as nested JSON: written, read, and read from other people's hands.
-#include "saved/tree_assembly.h"
-#include "support/saved_files.h"
 #include "support/soups.h"
+#include "unit/tree_json_test.h"
 
 #include <nlohmann/json.hpp>
 
@@ -9,51 +8,6 @@
 
 namespace sahl::testing {
 namespace {
-
-class TreeJsonTest : public ::testing::Test {
-protected:
-    PreparedScene writtenAndRead(const PreparedScene& prepared, const SceneOptions& options = {})
-    {
-        writeTreeJson(prepared, path);
-        return loadTreeJson(path, options);
-    }
-
-    /// A file with this root, and a scene of one material; what is wrong with it, without the
-    /// folder.
-    std::string errorOfRoot(const std::string& root) { return errorOf(file(root)); }
-
-    std::string errorOf(const std::string& text)
-    {
-        writeFileAtomically(path, text);
-        std::string error = badInputOf([&] { loadTreeJson(path, {}); });
-        const std::string place = folder.path.string() + "/";
-        for (size_t at; (at = error.find(place)) != std::string::npos;)
-            error.erase(at, place.size());
-        return error;
-    }
-
-    static std::string file(const std::string& root, const std::string& texels = "[]")
-    {
-        static const std::string head = [] {
-            TemporaryFolder place;
-            writeTreeJson(prepareText(R"({"shapes": [{"type": "sphere", "radius": 1}]})"),
-                          place.path / "a.json");
-            const std::string text = readTextFile(place.path / "a.json");
-            return text.substr(0, text.find("\"texels\""));
-        }();
-        return fmt::format("{}\"texels\":{},\n\"root\":{}}}", head, texels, root);
-    }
-
-    static std::string sphere(int number)
-    {
-        return fmt::format(R"({{"type":"sphere","number":{},"material":0,"center":[{},0,0],)"
-                           R"("radius":0.5}})",
-                           number, number);
-    }
-
-    TemporaryFolder folder;
-    fs::path path = folder.path / "tree.json";
-};
 
 TEST_F(TreeJsonTest, everyArrayAndSettingIsKeptToTheBit)
 {
@@ -97,13 +51,6 @@ TEST_F(TreeJsonTest, nothingAndASingleLeafAreTrees)
         const PreparedScene original = prepareText(text);
         expectSameButNormals(writtenAndRead(original), original);
     }
-}
-
-TEST_F(TreeJsonTest, ofScenesWithInstances_isRefusedRatherThanHalfWritten)
-{
-    const PreparedScene scene = prepareScene(loadScene(instancesScene(), {}), BvhBuild::sweep, 2);
-    EXPECT_CONTAINS(badInputOf([&] { writeTreeJson(scene, path); }), "JSON holds one tree");
-    EXPECT_FALSE(fs::exists(path));
 }
 
 TEST_F(TreeJsonTest, everyFloatComesBackAsItWas)

@@ -70,6 +70,16 @@ function(sahl_test_program name sources links)
     target_include_directories(${name} PRIVATE ${SAHL_ROOT}/tests)
     target_link_libraries(${name} PRIVATE ${links} GTest::gtest GTest::gtest_main)
     sahl_compile_options(${name})
+    sahl_add_to_folder(${name})
+endfunction()
+
+# sahl_add_to_folder(name): builds a program of a folder of tests/ with the target tests_FOLDER too.
+function(sahl_add_to_folder name)
+    get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+    if(NOT TARGET tests_${folder})
+        add_custom_target(tests_${folder})
+    endif()
+    add_dependencies(tests_${folder} ${name})
 endfunction()
 
 function(sahl_discover name long prefix)

@@ -1,0 +1,36 @@
+#include "compare/display.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sahl {
+
+double srgbFromLinear(double linear)
+{
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+double linearFromSrgb(double srgb)
+{
+    return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+}
+
+Image clippedForDisplay(const Image& image, double stops)
+{
+    const double gain = std::exp2(stops);
+    Image result = image;
+    for (float& value : result.rgb) {
+        value =
+            std::isfinite(value) ? static_cast<float>(std::clamp(value * gain, 0.0, 1.0)) : 0.0f;
+    }
+    return result;
+}
+
+Image encodedForDisplay(const Image& clipped)
+{
+    Image result = clipped;
+    for (float& value : result.rgb) value = static_cast<float>(srgbFromLinear(value));
+    return result;
+}
+
+}  // namespace sahl
