@@ -41,17 +41,26 @@ std::string samplesText(const RenderSettings& settings)
 void addAdaptiveOptions(CLI::App& command, SceneOptions& scene)
 {
     auto setRule = [&scene](const std::string& text) {
-        scene.adaptive = static_cast<uint32_t>(parseChoice("--adaptive", text, {"none", "report"}));
+        scene.adaptive = static_cast<uint32_t>(parseChoice("--adaptive", text, {ADAPTIVE_RULES.begin(), ADAPTIVE_RULES.end()}));
     };
-    static_assert(ADAPTIVE_NONE == 0 && ADAPTIVE_REPORT == 1);
+    static_assert(ADAPTIVE_NONE == 0 && ADAPTIVE_REPORT == 1 && ADAPTIVE_CROSSED == 2 && ADAPTIVE_JOINT == 3);
     command
         .add_option_function<std::string>(
             "--adaptive", setRule,
-            withDefault(
-                "none or report: stop at a pixel when a sample hardly moves\nits mean; biased "
-                "(docs/adaptive.md)",
-                "the scene's"))
+            withDefault("none, crossed (unbiased), joint (quieter, biased) or\nreport (biased): how pixels "
+                        "come to their number of\nsamples (docs/adaptive.md)",
+                        "the scene's"))
         ->type_name("NAME")
+        ->group("Picture");
+    auto setTarget = [&scene](const std::string& text) {
+        scene.targetError = static_cast<float>(parseReal("--target-error", text, 1e-6, 1));
+    };
+    command
+        .add_option_function<std::string>(
+            "--target-error", setTarget,
+            withDefault("of crossed and joint: one standard error of a pixel,\nrelative to its luminance",
+                        "the scene's, else 0.05"))
+        ->type_name("X")
         ->group("Picture");
     auto setEpsilon = [&scene](const std::string& text) {
         scene.epsilon = static_cast<float>(parseReal("--epsilon", text, 1e-30, 1e30));
@@ -63,10 +72,10 @@ void addAdaptiveOptions(CLI::App& command, SceneOptions& scene)
         ->type_name("X")
         ->group("Picture");
     addNumber(command, "--min-spp", scene.minSpp, {1, 1 << 24},
-              "adaptive: least samples", "the scene's, else 20")
+              "adaptive: least samples", "the scene's, else the rule's")
         ->group("Picture");
     addNumber(command, "--max-spp", scene.maxSpp, {1, 1 << 24},
-              "adaptive: most samples", "the scene's, else 1000")
+              "adaptive: most samples", "the scene's, else the rule's")
         ->group("Picture");
 }
 
@@ -88,39 +97,61 @@ double AdaptiveReport::savedShare() const
 std::string adaptiveSummary(const AdaptiveReport& report)
 {
     const AdaptiveRule& rule = report.rule;
-    return fmt::format(
-        "adaptive: rule {} (biased), epsilon {:g}, {} to {} samples per pixel: {:.1f} on average, "
-        "{:.1f} % of the pixels met the criterion, {:.1f} % of the samples saved",
-        adaptiveRuleName(rule.rule), rule.epsilon, rule.minSamples, rule.maxSamples,
-        report.meanSamples(), 100 * report.convergedShare(), 100 * report.savedShare());
+    const std::string what =
+        fmt::format("adaptive: rule {} ({}), ", adaptiveRuleName(rule.rule), isBiased(rule.rule) ? "biased" : "unbiased");
+    const std::string samples =
+        fmt::format("{} to {} samples per pixel: {:.1f} on average, ", rule.minSamples, rule.maxSamples,
+                    report.meanSamples());
+    const std::string saved = fmt::format("{:.1f} % of the samples saved", 100 * report.savedShare());
+    if (rule.rule == ADAPTIVE_REPORT) {
+        return fmt::format("{}epsilon {:g}, {}{:.1f} % of the pixels met the criterion, {}", what, rule.epsilon,
+                           samples, 100 * report.convergedShare(), saved);
+    }
+    return fmt::format("{}target error {:g}, {}{:.1f} % of the pixels reached it, {}; error of the frame's "
+                       "mean {:.2g} %",
+                       what, rule.targetError, samples, 100 * report.error.reachedShare, saved,
+                       100 * report.error.ofFrameMean);
 }
 
 ImageMetadata adaptiveMetadata(const AdaptiveReport& report)
 {
     const AdaptiveRule& rule = report.rule;
-    return {{"sahl.adaptive", adaptiveRuleName(rule.rule)},
-            {"sahl.biased", "yes"},
-            {"sahl.epsilon", shortest(rule.epsilon)},
-            {"sahl.minSamples", std::to_string(rule.minSamples)},
-            {"sahl.maxSamples", std::to_string(rule.maxSamples)},
-            {"sahl.meanSamples", fmt::format("{:.6g}", report.meanSamples())},
-            {"sahl.convergedShare", fmt::format("{:.6g}", report.convergedShare())},
-            {"sahl.savedShare", fmt::format("{:.6g}", report.savedShare())}};
+    ImageMetadata metadata = {{"sahl.adaptive", adaptiveRuleName(rule.rule)},
+                              {"sahl.biased", isBiased(rule.rule) ? "yes" : "no"},
+                              {"sahl.minSamples", std::to_string(rule.minSamples)},
+                              {"sahl.maxSamples", std::to_string(rule.maxSamples)},
+                              {"sahl.meanSamples", fmt::format("{:.6g}", report.meanSamples())},
+                              {"sahl.convergedShare", fmt::format("{:.6g}", report.convergedShare())},
+                              {"sahl.savedShare", fmt::format("{:.6g}", report.savedShare())},
+                              {"sahl.frameError", fmt::format("{:.6g}", report.error.ofFrameMean)}};
+    if (rule.rule == ADAPTIVE_REPORT) {
+        metadata["sahl.epsilon"] = shortest(rule.epsilon);
+    } else {
+        metadata["sahl.targetError"] = shortest(rule.targetError);
+        metadata["sahl.reachedShare"] = fmt::format("{:.6g}", report.error.reachedShare);
+    }
+    return metadata;
 }
 
 nlohmann::ordered_json adaptiveJson(const AdaptiveReport& report)
 {
     const AdaptiveRule& rule = report.rule;
-    return {{"rule", adaptiveRuleName(rule.rule)},
-            {"biased", true},
-            {"epsilon", std::stod(shortest(rule.epsilon))},
-            {"minSamples", rule.minSamples},
-            {"maxSamples", rule.maxSamples},
-            {"meanSamples", report.meanSamples()},
-            {"convergedPixels", report.outcome.converged},
-            {"pixelsAtMaximum", report.outcome.atMaximum},
-            {"convergedShare", report.convergedShare()},
-            {"savedShare", report.savedShare()}};
+    nlohmann::ordered_json json = {{"rule", adaptiveRuleName(rule.rule)}, {"biased", isBiased(rule.rule)}};
+    if (rule.rule == ADAPTIVE_REPORT) {
+        json["epsilon"] = std::stod(shortest(rule.epsilon));
+    } else {
+        json["targetError"] = std::stod(shortest(rule.targetError));
+    }
+    json["minSamples"] = rule.minSamples;
+    json["maxSamples"] = rule.maxSamples;
+    json["meanSamples"] = report.meanSamples();
+    json["convergedPixels"] = report.outcome.converged;
+    json["pixelsAtMaximum"] = report.outcome.atMaximum;
+    json["convergedShare"] = report.convergedShare();
+    json["savedShare"] = report.savedShare();
+    if (rule.rule != ADAPTIVE_REPORT) json["reachedShare"] = report.error.reachedShare;
+    json["frameError"] = report.error.ofFrameMean;
+    return json;
 }
 
 }  // namespace sahl

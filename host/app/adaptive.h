@@ -2,6 +2,7 @@
 // it.
 #pragma once
 
+#include "film/film_error.h"
 #include "image/image.h"
 #include "render/render_adaptive.h"
 #include "scene/scene.h"
@@ -13,7 +14,7 @@
 
 namespace sahl {
 
-/// Adds --adaptive and the options that go with it, in the group "Picture".
+/// Adds --adaptive, --target-error and the options that go with it, in the group "Picture".
 void addAdaptiveOptions(CLI::App& command, SceneOptions& scene);
 
 bool isAdaptive(const RenderSettings& settings);
@@ -29,6 +30,7 @@ struct AdaptiveReport {
     AdaptiveRule rule;
     AdaptiveOutcome outcome;
     uint64_t samples = 0;  ///< of all pixels
+    FilmError error = {};
 
     double meanSamples() const;     ///< of a pixel
     double convergedShare() const;  ///< of the pixels: those that the rule stopped, in [0,1]

@@ -67,6 +67,13 @@ void addMapOptions(CLI::App& command, MapOptions& options)
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->group("Maps");
+    command
+        .add_option_function<std::string>(
+            "--error-map",
+            [&options](const std::string& file) { options.maps.push_back(parseMap("error=" + file)); },
+            withDefault("the pixels' relative errors, as --map error=FILE.png", "none"))
+        ->type_name("FILE")
+        ->group("Maps");
     addChoice(command, "--map-colors", style.colors,
               {{"viridis", ColorMap::viridis}, {"grey", ColorMap::grey}}, "viridis or grey")
         ->group("Maps");

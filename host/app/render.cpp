@@ -14,6 +14,7 @@
 #include "app/shading_options.h"
 #include "app/skip_existing.h"
 #include "app/stats.h"
+#include "app/stop_options.h"
 #include "film/layers.h"
 #include "render/prepare.h"
 #include "render/scene_hash.h"
@@ -38,6 +39,7 @@ struct RenderOptions {
     std::string statsPath;
     std::optional<CropWindow> crop;
     std::optional<double> partialSeconds;
+    StopOptions stop;
     RangeOptions range;
     SampleRange samples;  ///< to render of every pixel; known with the scene, as are:
     SceneHashes hashes;
@@ -119,7 +121,8 @@ std::vector<ImageChannel> firstHitLayers(const RenderOptions& options, const Pre
 
 AdaptiveReport reportOf(const RenderSettings& settings, const RenderResult& result)
 {
-    return {settings.adaptive, result.adaptive, result.film.counters.cameraRays};
+    return {settings.adaptive, result.adaptive, result.film.counters.cameraRays,
+            filmError(result.film, settings.adaptive.targetError)};
 }
 
 /// What is rendered, whatever part of it.
@@ -149,6 +152,7 @@ ImageMetadata metadataOf(const Scene& scene, const RenderResult& result, const S
                                  {"sahl.interrupted", result.interrupted ? "yes" : "no"},
                                  {"sahl.device", info.name},
                                  {"sahl.driver", info.driver}});
+    metadata.merge(stopMetadata(result));
     if (isAdaptive(scene.settings)) metadata.merge(adaptiveMetadata(reportOf(scene.settings, result)));
     return metadata;
 }
@@ -328,6 +332,7 @@ int runRender(RenderOptions& options)
     }
     std::vector<ImageChannel> firstHits = firstHitLayers(options, prepared, plan, *device);
     seconds.firstHits = watch.lap();
+    applyStopOptions(options.stop, plan);
     RenderResult result = renderLight(options, prepared.scene, plan, firstHits, *device);
     seconds.render = watch.lap();
 
@@ -348,6 +353,8 @@ int runRender(RenderOptions& options)
     if (isAdaptive(settings) && !options.common.quiet) {
         say("{}\n", adaptiveSummary(reportOf(settings, result)));
     }
+    const std::string stopped = stopSummary(result);
+    if (!stopped.empty() && !options.common.quiet) say("{}\n", stopped);
     if (options.common.verbose) printDetails(prepared, *device);
     if (!options.common.quiet) {
         for (const fs::path& path : outputs) {
@@ -373,6 +380,7 @@ Command addRenderCommand(CLI::App& app)
     addMapOptions(*command, options->maps);
     addRangeOptions(*command, options->range);
     addSceneOptions(*command, options->common);
+    addStopOptions(*command, options->stop);
     addCropOption(*command, options->crop);
     addDeviceOptions(*command, options->common);
     addMessageOptions(*command, options->common);

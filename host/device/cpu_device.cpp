@@ -1,5 +1,6 @@
 // The CPU as a device: the text compiled as C++ (host/reference), on all cores.
 
+#include "device/adaptive_schedule.h"
 #include "device/device.h"
 #include "reference/render_tile.h"
 #include "util/error.h"
@@ -9,6 +10,7 @@
 #include <chrono>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace sahl {
 
@@ -21,25 +23,39 @@ void refuseFaults(const PixelBlock& block)
                                        "than the builder promises; please report this scene");
 }
 
+/// What the tiles of a picture under adaptive sampling share.
+struct CpuAdaptiveShared {
+    DeviceScene scene;
+    AdaptiveWindow window;
+    AdaptiveRule rule;
+    uint32_t order;
+    unsigned threads;
+    DeviceStatistics& statistics;
+    std::vector<PixelEstimate> estimates;  // of the window, for rules that look at neighbours
+};
+
 class CpuAdaptiveTile final : public AdaptiveTile {
 public:
-    CpuAdaptiveTile(const DeviceScene& scene, const TileRequest& tile, const AdaptiveRule& rule,
-                    uint32_t order, unsigned threads, DeviceStatistics& statistics)
-        : scene_(scene), tile_(tile), rule_(rule), order_(order), threads_(threads), statistics_(statistics),
-          pixels_(size_t{tile.width} * tile.height), active_(pixels_.size())
+    CpuAdaptiveTile(CpuAdaptiveShared& shared, const TileRequest& tile)
+        : shared_(shared),
+          tile_(tile),
+          pixels_(size_t{tile.width} * tile.height),
+          active_(pixels_.size())
     {
         std::iota(active_.begin(), active_.end(), 0u);
     }
 
     AdaptivePass runPass() override
     {
-        if (active_.empty()) return {};
+        if (active_.empty() && activeAfter_.empty()) return {};
         auto start = std::chrono::steady_clock::now();
         reference::foldBlocks(before_, pixels_);
-        reference::renderAdaptivePass(scene_, tile_, rule_, order_, threads_, active_, pixels_);
-        before_ = active_;
-        std::erase_if(active_, [&](uint32_t i) { return pixels_[i].state != PIXEL_ACTIVE; });
-        AdaptivePass pass = {static_cast<uint32_t>(active_.size()), 0, 0};
+        reference::renderAdaptivePass(shared_.scene, tile_, shared_.rule, passes_, shared_.order,
+                                      shared_.threads, active_, pixels_);
+        before_ = std::move(active_);
+        advance();
+        passes_++;
+        AdaptivePass pass = {activePixels(), 0, 0};
         for (uint32_t i : before_) {
             const PixelBlock& block = pixels_[i].block;
             refuseFaults(block);
@@ -47,23 +63,83 @@ public:
             pass.rays += uint64_t{block.samplesDone} + block.indirectRays + block.shadowRays;
         }
         std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-        statistics_.renderSeconds += seconds.count();
-        statistics_.dispatches++;
+        shared_.statistics.renderSeconds += seconds.count();
+        shared_.statistics.dispatches++;
         return pass;
+    }
+
+    uint32_t decide(const AdaptiveFloors& floors) override
+    {
+        const AdaptiveRule& rule = shared_.rule;
+        reference::decidePixels(rule, floors, passes_, view(), before_, pixels_);
+        if (rule.rule == ADAPTIVE_CROSSED) {
+            active_ = reference::takersOf(rule, passes_, pixels_);
+            activeAfter_ = reference::takersOf(rule, passes_ + 1, pixels_);
+        } else {
+            dropFinished();
+        }
+        return activePixels();
     }
 
     void read(std::span<AdaptivePixel> pixels) override { std::ranges::copy(pixels_, pixels.begin()); }
 
 private:
-    DeviceScene scene_;
+    /// The queue of the next pass, after pass `passes_` over `before_`.
+    void advance()
+    {
+        if (halvesGoApart(shared_.rule, passes_)) {
+            active_ = std::exchange(activeAfter_,
+                                    reference::advanceHalves(shared_.rule, passes_, before_, pixels_));
+            return;
+        }
+        active_ = before_;
+        dropFinished();
+        if (decisionIsDue(shared_.rule, passes_ + 1))
+            reference::estimatePixels(shared_.rule, view(), before_, pixels_);
+    }
+
+    void dropFinished()
+    {
+        std::erase_if(active_, [&](uint32_t i) { return pixels_[i].state != PIXEL_ACTIVE; });
+    }
+
+    uint32_t activePixels() const { return static_cast<uint32_t>(active_.size() + activeAfter_.size()); }
+
+    reference::EstimatesView view()
+    {
+        const AdaptiveWindow& window = shared_.window;
+        return {shared_.estimates, window.width, tile_.x - window.left, tile_.y - window.top, tile_.width};
+    }
+
+    CpuAdaptiveShared& shared_;
     TileRequest tile_;
-    AdaptiveRule rule_;
-    uint32_t order_;
-    unsigned threads_;
-    DeviceStatistics& statistics_;
     std::vector<AdaptivePixel> pixels_;
-    std::vector<uint32_t> active_;  // pixels of the next pass
-    std::vector<uint32_t> before_;  // of the newest: not yet in the film
+    std::vector<uint32_t> active_;       // pixels of the next pass
+    std::vector<uint32_t> activeAfter_;  // of the pass after it, where halves go apart
+    std::vector<uint32_t> before_;       // of the newest: not yet in the film
+    uint32_t passes_ = 0;
+};
+
+class CpuAdaptivePicture final : public AdaptivePicture {
+public:
+    explicit CpuAdaptivePicture(CpuAdaptiveShared shared) : shared_(std::move(shared))
+    {
+        if (!looksAtNeighbours(shared_.rule)) return;
+        shared_.estimates.resize(size_t{shared_.window.width} * shared_.window.height);
+    }
+
+    std::unique_ptr<AdaptiveTile> beginTile(const TileRequest& tile) override
+    {
+        return std::make_unique<CpuAdaptiveTile>(shared_, tile);
+    }
+
+    void readEstimates(std::span<PixelEstimate> estimates) override
+    {
+        std::ranges::copy(shared_.estimates, estimates.begin());
+    }
+
+private:
+    CpuAdaptiveShared shared_;
 };
 
 class CpuDevice final : public Device {
@@ -104,9 +180,11 @@ public:
         reference::renderFirstHits(scene_, tile, threads_, pixels);
     }
 
-    std::unique_ptr<AdaptiveTile> beginAdaptive(const TileRequest& tile, const AdaptiveRule& rule) override
+    std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,
+                                                   const AdaptiveRule& rule) override
     {
-        return std::make_unique<CpuAdaptiveTile>(scene_, tile, rule, order_, threads_, statistics_);
+        return std::make_unique<CpuAdaptivePicture>(
+            CpuAdaptiveShared{scene_, window, rule, order_, threads_, statistics_, {}});
     }
 
     uint32_t maxTilePixels() const override { return 1u << 16; }

@@ -57,9 +57,15 @@ struct DeviceStatistics {
 
 /// What a pass of adaptive sampling did.
 struct AdaptivePass {
-    uint32_t activePixels = 0;  ///< that the rule has not stopped; with 0 the tile is finished
+    uint32_t activePixels = 0;  ///< that take more samples; with 0 the tile is finished. Under `crossed`
+                                ///< and after its decision a pixel counts once for each half
     uint64_t samples = 0;       ///< of this pass
     uint64_t rays = 0;          ///< of all kinds, of this pass
+};
+
+/// Part of a picture [pixels].
+struct AdaptiveWindow {
+    uint32_t left = 0, top = 0, width = 0, height = 0;
 };
 
 /// Adaptive sampling of a tile. What the pixels have so far, which of them go on and whether they have
@@ -69,11 +75,30 @@ public:
     virtual ~AdaptiveTile() = default;
 
     /// Up to BLOCK_SIZE samples more for every active pixel: fewer for pixels that the rule stops on the
-    /// way. Pixels that are finished cost nothing. Throws deviceLost.
+    /// way. Pixels that are finished cost nothing. Where a decision is due after the pass (see
+    /// decisionIsDue in device/adaptive_schedule.h) all its pixels count as active. Throws deviceLost.
     virtual AdaptivePass runPass() = 0;
+
+    /// Decides who goes on, once every tile of the picture has run the pass after which that is due.
+    /// Returns the number of active pixels. Throws deviceLost.
+    virtual uint32_t decide(const AdaptiveFloors& floors) = 0;
 
     /// All pixels as they are now, top row first; pixels.size() == width * height.
     virtual void read(std::span<AdaptivePixel> pixels) = 0;
+};
+
+/// Adaptive sampling of a picture, tile by tile. Rules that look at neighbours need all its tiles alive.
+class AdaptivePicture {
+public:
+    virtual ~AdaptivePicture() = default;
+
+    /// Begins a tile with its sample 0; it lies in the window, and its firstSample and sampleCount have
+    /// no meaning. The tile must be gone before the picture. Several may be alive. Throws as render() does.
+    virtual std::unique_ptr<AdaptiveTile> beginTile(const TileRequest& tile) = 0;
+
+    /// What the pixels said of themselves before the newest decision, top row of the window first;
+    /// estimates.size() == width * height. For rules that look at neighbours.
+    virtual void readEstimates(std::span<PixelEstimate> estimates) = 0;
 };
 
 class Device {
@@ -95,11 +120,10 @@ public:
     /// samples from sample 0 on. pixels.size() == width * height. Throws as render() does.
     virtual void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) = 0;
 
-    /// Begins adaptive sampling of a tile with its sample 0; tile.firstSample and sampleCount have no
-    /// meaning. The result must be gone before the next setScene() and before the device. Several may be
-    /// alive. Throws as render() does.
-    virtual std::unique_ptr<AdaptiveTile> beginAdaptive(const TileRequest& tile,
-                                                        const AdaptiveRule& rule) = 0;
+    /// Begins adaptive sampling of a window of the picture. The result must be gone before the next
+    /// setScene() and before the device. Throws as render() does.
+    virtual std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,
+                                                           const AdaptiveRule& rule) = 0;
 
     /// Largest width * height that render() takes.
     virtual uint32_t maxTilePixels() const = 0;

@@ -10,14 +10,17 @@ namespace sahl {
 struct AdaptivePipelines {
     ComputePipeline path;    ///< kernels/adaptive_path.comp
     ComputePipeline pass;    ///< kernels/adaptive_pass.comp
+    ComputePipeline decide;  ///< kernels/adaptive_decide.comp
     uint32_t groupSize = 0;  ///< invocations of a workgroup
 };
 
 /// `path`: the pipeline of adaptive_path for the scene and stack in force.
 AdaptivePipelines makeAdaptivePipelines(Context& context, ComputePipeline path,
-                                        const std::array<uint32_t, 2>& group);
+                                        const std::array<uint32_t, 2>& group, bool exactMath);
 
-/// What all tiles share of the device that makes them; must outlive them.
+/// What all tiles share of the device that makes them; must outlive them. beginTile() calls
+/// `prepareTile` first: it throws when the device cannot render such a tile, and makes room in
+/// `suspended`.
 struct AdaptiveHost {
     Context& context;
     AdaptivePipelines& pipelines;
@@ -26,10 +29,11 @@ struct AdaptiveHost {
     BoundedWork& work;
     DeviceStatistics& statistics;
     uint32_t stackSize = 0;
+    std::function<void(const TileRequest&)> prepareTile;
 };
 
-std::unique_ptr<AdaptiveTile> makeVulkanAdaptiveTile(const AdaptiveHost& host,
-                                                     const TileRequest& tile,
-                                                     const AdaptiveRule& rule);
+std::unique_ptr<AdaptivePicture> makeVulkanAdaptivePicture(const AdaptiveHost& host,
+                                                           const AdaptiveWindow& window,
+                                                           const AdaptiveRule& rule);
 
 }  // namespace sahl

@@ -48,8 +48,8 @@ public:
     void setScene(const DeviceScene& scene) override;
     void render(const TileRequest& tile, std::span<PixelBlock> blocks) override;
     void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override;
-    std::unique_ptr<AdaptiveTile> beginAdaptive(const TileRequest& tile,
-                                                const AdaptiveRule& rule) override;
+    std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,
+                                                   const AdaptiveRule& rule) override;
     uint32_t maxTilePixels() const override { return tilePixelLimit(context_->physical, group_); }
     uint64_t maxAdaptivePixels() const override { return adaptivePixelLimit(context_->physical); }
     DeviceStatistics statistics() const override { return statistics_; }
@@ -245,20 +245,25 @@ void VulkanDevice::renderFirstHits(const TileRequest& tile, std::span<FirstHits>
     readBuffer(firstHits_, std::as_writable_bytes(pixels));
 }
 
-std::unique_ptr<AdaptiveTile> VulkanDevice::beginAdaptive(const TileRequest& tile, const AdaptiveRule& rule)
+std::unique_ptr<AdaptivePicture> VulkanDevice::beginAdaptive(const AdaptiveWindow& window,
+                                                             const AdaptiveRule& rule)
 {
-    TileRequest first = tile;
-    first.firstSample = 0;
-    first.sampleCount = 1;
-    size_t pixels = size_t{tile.width} * tile.height;
-    requireTile(first, pixels);
-    prepareTileBuffers(pixels);
+    if (!scene_) throw usageError("adaptive sampling on '{}' without a scene", context_->physical.name);
     if (!adaptive_) {
         ComputePipeline path = makePipeline("adaptive_path", BINDING_COUNT, sizeof(AdaptiveDispatch));
-        adaptive_ = std::make_unique<AdaptivePipelines>(makeAdaptivePipelines(*context_, std::move(path), group_));
+        adaptive_ = std::make_unique<AdaptivePipelines>(
+            makeAdaptivePipelines(*context_, std::move(path), group_, statistics_.exactMath));
     }
-    AdaptiveHost host = {*context_, *adaptive_, *scene_, suspended_, work_, statistics_, pipelineStack_};
-    return makeVulkanAdaptiveTile(host, tile, rule);
+    auto prepareTile = [this](TileRequest tile) {
+        tile.firstSample = 0;
+        tile.sampleCount = 1;
+        size_t pixels = size_t{tile.width} * tile.height;
+        requireTile(tile, pixels);
+        prepareTileBuffers(pixels);
+    };
+    AdaptiveHost host = {*context_, *adaptive_,  *scene_,        suspended_,
+                         work_,     statistics_, pipelineStack_, prepareTile};
+    return makeVulkanAdaptivePicture(host, window, rule);
 }
 
 void VulkanDevice::renderBlocks(const TileRequest& tile, std::span<PixelBlock> blocks)

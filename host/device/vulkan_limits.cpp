@@ -143,7 +143,9 @@ uint32_t tilePixelLimit(const PhysicalDevice& device, const std::array<uint32_t,
 
 uint64_t adaptivePixelLimit(const PhysicalDevice& device)
 {
-    return mainHeapBytes(device) / 2 / sizeof(AdaptivePixel);
+    uint64_t range = std::min<uint64_t>(device.properties.limits.maxStorageBufferRange, device.maxAllocationBytes);
+    uint64_t memory = mainHeapBytes(device) / 2 / (sizeof(AdaptivePixel) + sizeof(PixelEstimate));
+    return std::min(memory, range / sizeof(PixelEstimate));
 }
 
 }  // namespace sahl

@@ -39,7 +39,8 @@ uint32_t defaultStepBudget(const PhysicalDevice& device);
 /// workgroups of shape `group` that one dispatch may have in a row.
 uint32_t tilePixelLimit(const PhysicalDevice& device, const std::array<uint32_t, 2>& group);
 
-/// Largest number of pixels under adaptive sampling at a time: half of the device's memory.
+/// Largest number of pixels under adaptive sampling at a time: half of the device's memory, and estimates
+/// of all of them in one buffer.
 uint64_t adaptivePixelLimit(const PhysicalDevice& device);
 
 }  // namespace sahl

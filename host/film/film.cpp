@@ -145,8 +145,7 @@ void Film::add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,
             work[pixel].add(workOf(from.film));
             counters.add(countersOf(from.film));
             if (!withNewestPass || from.block.samplesDone == 0) continue;
-            const uint32_t firstSample = from.film.samplesA + from.film.samplesB;
-            add(x + column, y + row, 1, 1, firstSample, {&from.block, 1});
+            add(x + column, y + row, 1, 1, from.firstSample, {&from.block, 1});
         }
     }
 }
@@ -171,6 +170,16 @@ void Film::merge(const Film& other)
     counters.add(other.counters);
 }
 
+namespace {
+
+/// Rounded to double by toDouble() and by the division.
+double meanOf(const Fixed64x64& sum, uint64_t samples)
+{
+    return sum.toDouble() / static_cast<double>(samples);
+}
+
+}  // namespace
+
 Image meanImage(const Film& film)
 {
     Image image;
@@ -182,13 +191,15 @@ Image meanImage(const Film& film)
         const HalfPixel& b = film.half[1][i];
         const uint64_t samples = uint64_t{a.samples} + b.samples;
         if (samples == 0) continue;
+        const bool apart = film.halvesWeighEqually && a.samples > 0 && b.samples > 0;
         for (size_t c = 0; c < 3; c++) {
-            // The sum is exact; from here on there is one rounding each to double, by the
-            // division, and to float.
+            // The sum is exact; the mean is rounded to double, then to float.
             Fixed64x64 sum = a.sum[c];
             sum.add(b.sum[c]);
-            image.rgb[3 * i + c] =
-                static_cast<float>(sum.toDouble() / static_cast<double>(samples));
+            const double mean =
+                apart ? (meanOf(a.sum[c], a.samples) + meanOf(b.sum[c], b.samples)) / 2
+                      : meanOf(sum, samples);
+            image.rgb[3 * i + c] = static_cast<float>(mean);
         }
     }
     return image;

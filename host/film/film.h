@@ -60,6 +60,9 @@ struct Film {
     std::vector<uint32_t> digest;    ///< path digest of each pixel
     std::vector<PixelWork> work;     ///< of each pixel
     Counters counters;
+    /// The picture is the mean of the halves' means rather than of all samples: where one half's samples
+    /// decided how many the other has, any other weight would bias it (the rule `crossed`).
+    bool halvesWeighEqually = false;
 
     /// Adds the blocks of a tile whose samples start at `firstSample`, a multiple of BLOCK_SIZE.
     void add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight, uint32_t firstSample,
@@ -81,7 +84,8 @@ constexpr uint64_t filmBytes(uint64_t width, uint64_t height)
     return width * height * (2 * sizeof(HalfPixel) + sizeof(uint32_t) + sizeof(PixelWork));
 }
 
-/// Mean radiance of each pixel over both halves, black where there is no sample.
+/// Mean radiance of each pixel: over all samples, or of both halves' means where these weigh equally and
+/// both have samples. Black where there is none.
 Image meanImage(const Film& film);
 
 }  // namespace sahl

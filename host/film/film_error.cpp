@@ -1,28 +1,89 @@
 #include "film/film_error.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sahl {
 
+namespace {
+
+/// Sums of samples, and their mean luminance.
+struct Luminances {
+    double samples = 0, sum = 0, sumOfSquares = 0;
+
+    void add(const HalfPixel& half)
+    {
+        samples += half.samples;
+        sum += 0.2126 * half.sum[0].toDouble() + 0.7152 * half.sum[1].toDouble() +
+               0.0722 * half.sum[2].toDouble();
+        sumOfSquares += half.sumY2.toDouble();
+    }
+
+    double mean() const { return samples > 0 ? sum / samples : 0; }
+
+    double varianceOfMean() const
+    {
+        if (samples < 2) return 0;
+        const double spread = sumOfSquares / samples - mean() * mean();
+        return std::fmax(0, spread / (samples - 1));
+    }
+};
+
+}  // namespace
+
 PixelStatistics pixelStatistics(const Film& film, size_t pixel)
 {
-    PixelStatistics result;
-    double y = 0;
-    double y2 = 0;
-    for (const auto& half : film.half) {
-        const HalfPixel& sums = half[pixel];
-        result.samples += sums.samples;
-        y += 0.2126 * sums.sum[0].toDouble() + 0.7152 * sums.sum[1].toDouble() +
-             0.0722 * sums.sum[2].toDouble();
-        y2 += sums.sumY2.toDouble();
+    Luminances a, b;
+    a.add(film.half[0][pixel]);
+    b.add(film.half[1][pixel]);
+    if (film.halvesWeighEqually && a.samples > 0 && b.samples > 0) {
+        return {a.samples + b.samples, (a.mean() + b.mean()) / 2,
+                (a.varianceOfMean() + b.varianceOfMean()) / 4};
     }
-    double n = result.samples;
-    if (n == 0) return result;
-    result.luminance = y / n;
-    if (n > 1) {
-        double spread = y2 / n - result.luminance * result.luminance;
-        result.varianceOfMean = std::fmax(0, spread / (n - 1));
+    Luminances both = a;
+    both.add(film.half[1][pixel]);
+    return {both.samples, both.mean(), both.varianceOfMean()};
+}
+
+std::vector<double> pixelErrors(const Film& film)
+{
+    const size_t pixels = film.half[0].size();
+    std::vector<PixelStatistics> statistics;
+    std::vector<double> luminances;
+    for (size_t i = 0; i < pixels; i++) {
+        statistics.push_back(pixelStatistics(film, i));
+        luminances.push_back(statistics.back().luminance);
     }
+    double floor = 0;
+    if (!luminances.empty()) {
+        auto middle = luminances.begin() + static_cast<std::ptrdiff_t>(pixels / 2);
+        std::ranges::nth_element(luminances, middle);
+        floor = 0.01 * *middle;
+    }
+    std::vector<double> errors;
+    for (const PixelStatistics& pixel : statistics) {
+        const double relativeTo = std::fmax(pixel.luminance, floor);
+        const double error = relativeTo > 0 ? std::sqrt(pixel.varianceOfMean) / relativeTo : 0;
+        errors.push_back(pixel.samples < 2 ? std::numeric_limits<double>::infinity() : error);
+    }
+    return errors;
+}
+
+FilmError filmError(const Film& film, double target)
+{
+    const std::vector<double> errors = pixelErrors(film);
+    if (errors.empty()) return {};
+    double mean = 0, variance = 0;
+    for (size_t i = 0; i < errors.size(); i++) {
+        const PixelStatistics pixel = pixelStatistics(film, i);
+        mean += pixel.luminance;
+        variance += pixel.varianceOfMean;
+    }
+    FilmError result;
+    result.ofFrameMean = mean > 0 ? std::sqrt(variance) / mean : 0;
+    const auto reached = std::ranges::count_if(errors, [&](double error) { return error <= target; });
+    result.reachedShare = double(reached) / double(errors.size());
     return result;
 }
 

@@ -13,6 +13,19 @@ struct PixelStatistics {
 
 PixelStatistics pixelStatistics(const Film& film, size_t pixel);
 
+/// One standard error of each pixel's luminance, relative to that or to 1 % of the median of all pixels'
+/// luminances where that is more. Infinite where a pixel has fewer than 2 samples; 0 where its samples, or
+/// all pixels, are black.
+std::vector<double> pixelErrors(const Film& film);
+
+/// How good a picture is, by its own samples.
+struct FilmError {
+    double ofFrameMean = 0;   ///< one standard error of the mean luminance of all pixels, relative to it
+    double reachedShare = 0;  ///< of the pixels: those whose error is at most the target, in [0,1]
+};
+
+FilmError filmError(const Film& film, double target);
+
 /// One standard error of a pixel's luminance, root mean square over all pixels, relative to the mean
 /// luminance of the picture. From the spread of the single samples. 0 with fewer than 2 samples a
 /// pixel or for a black picture.

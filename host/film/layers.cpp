@@ -66,13 +66,15 @@ std::vector<ImageChannel> firstHitChannels(std::span<const FirstHits> hits, uint
 std::vector<ImageChannel> statisticsChannels(const Film& film)
 {
     std::vector<ImageChannel> channels = {
-        {"samples.Y", {}}, {"variance.Y", {}}, {"nodeVisits.Y", {}}, {"primitiveTests.Y", {}}};
+        {"samples.Y", {}}, {"variance.Y", {}}, {"nodeVisits.Y", {}}, {"primitiveTests.Y", {}}, {"error.Y", {}}};
+    const std::vector<double> errors = pixelErrors(film);
     for (size_t i = 0; i < film.half[0].size(); i++) {
         PixelStatistics pixel = pixelStatistics(film, i);
         channels[0].values.push_back(static_cast<float>(pixel.samples));
         channels[1].values.push_back(static_cast<float>(pixel.varianceOfMean));
         channels[2].values.push_back(static_cast<float>(film.work[i].boxTests / 2));
         channels[3].values.push_back(static_cast<float>(film.work[i].primitiveTests));
+        channels[4].values.push_back(std::isfinite(errors[i]) ? static_cast<float>(errors[i]) : 0.0f);
     }
     return channels;
 }

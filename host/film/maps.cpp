@@ -68,6 +68,7 @@ const std::vector<MapQuantity>& mapQuantities()
         {"nodes", "nodeVisits", Kind::scalar, false},
         {"primitives", "primitiveTests", Kind::scalar, false},
         {"samples", "samples", Kind::scalar, false},
+        {"error", "error", Kind::scalar, false},
         {"normals", "normal", Kind::direction, true},
         {"geometric-normals", "geometricNormal", Kind::direction, true},
         {"depth", "depth", Kind::distance, true},

@@ -45,16 +45,25 @@ struct Kernel {
     const ObjectInstance& loadInstance(uint index) const { return instances[index]; }
     vec3 loadProbeTexel(uint index) const { return vec3(probeTexels[index]); }
 
+    // Of adaptive sampling: of all pixels of a picture, top row first.
+    std::span<const PixelEstimate> estimates;
+    uint pictureWidth = 0;
+    uint estimatesWidth() const { return pictureWidth; }
+    uint estimatesHeight() const { return static_cast<uint>(estimates.size() / pictureWidth); }
+    const PixelEstimate& loadEstimate(uint x, uint y) const { return estimates[y * pictureWidth + x]; }
+
 #include "pathtrace/pathtrace.glsl"
 #include "pathtrace/film_sums.glsl"
 #include "pathtrace/adaptive.glsl"
+#include "pathtrace/adaptive_schedule.glsl"
+#include "pathtrace/adaptive_halves.glsl"
 
-    /// Renders the pixel's next block: until it is full, or the rule stops the pixel.
-    void renderBlock(uint x, uint y, const AdaptiveRule& rule, AdaptivePixel& pixel)
+    /// Renders block `pass` of the pixel: until it is full, or the rule stops the pixel.
+    void renderBlock(uint x, uint y, uint pass, const AdaptiveRule& rule, AdaptivePixel& pixel)
     {
-        uint before = samplesOf(pixel.film);
+        pixel.firstSample = pass * BLOCK_SIZE;
         while (pixel.state == PIXEL_ACTIVE && pixel.block.samplesDone < BLOCK_SIZE) {
-            uint sampleIndex = before + pixel.block.samplesDone;
+            uint sampleIndex = pixel.firstSample + pixel.block.samplesDone;
             vec3 L = renderSample(x, y, sampleIndex, pixel.block);
             pixel.state = stateAfter(rule, L, sampleIndex + 1, pixel.mean);
         }

@@ -43,14 +43,15 @@ void renderTileInOrder(const DeviceScene& scene, const TileRequest& tile, unsign
 
 template <uint Order, bool Instances = true>
 void renderPassInOrder(const DeviceScene& scene, const TileRequest& tile, const AdaptiveRule& rule,
-                       unsigned threads, std::span<const uint32_t> queue, std::span<AdaptivePixel> pixels)
+                       uint pass, unsigned threads, std::span<const uint32_t> queue,
+                       std::span<AdaptivePixel> pixels)
 {
     constexpr size_t CHUNK = 64;  // pixels, since making a kernel is not free
     parallelFor((queue.size() + CHUNK - 1) / CHUNK, threads, [&](size_t chunk) {
         auto kernel = kernelFor<Order, Instances>(scene);
         size_t first = chunk * CHUNK;
         for (uint32_t i : queue.subspan(first, std::min(CHUNK, queue.size() - first))) {
-            kernel.renderBlock(tile.x + i % tile.width, tile.y + i / tile.width, rule, pixels[i]);
+            kernel.renderBlock(tile.x + i % tile.width, tile.y + i / tile.width, pass, rule, pixels[i]);
         }
     });
 }
@@ -58,28 +59,90 @@ void renderPassInOrder(const DeviceScene& scene, const TileRequest& tile, const 
 }  // namespace
 
 void renderAdaptivePass(const DeviceScene& scene, const TileRequest& tile, const AdaptiveRule& rule,
-                        uint order, unsigned threads, std::span<const uint32_t> queue,
+                        uint pass, uint order, unsigned threads, std::span<const uint32_t> queue,
                         std::span<AdaptivePixel> pixels)
 {
     switch (order) {
     case ORDER_LEFT_FIRST:
-        return renderPassInOrder<ORDER_LEFT_FIRST>(scene, tile, rule, threads, queue, pixels);
+        return renderPassInOrder<ORDER_LEFT_FIRST>(scene, tile, rule, pass, threads, queue, pixels);
     case ORDER_RIGHT_FIRST:
-        return renderPassInOrder<ORDER_RIGHT_FIRST>(scene, tile, rule, threads, queue, pixels);
+        return renderPassInOrder<ORDER_RIGHT_FIRST>(scene, tile, rule, pass, threads, queue, pixels);
     default: break;
     }
     if (scene.instances.empty())
-        return renderPassInOrder<ORDER_NEAR_FIRST, false>(scene, tile, rule, threads, queue, pixels);
-    renderPassInOrder<ORDER_NEAR_FIRST, true>(scene, tile, rule, threads, queue, pixels);
+        return renderPassInOrder<ORDER_NEAR_FIRST, false>(scene, tile, rule, pass, threads, queue, pixels);
+    renderPassInOrder<ORDER_NEAR_FIRST, true>(scene, tile, rule, pass, threads, queue, pixels);
 }
 
 void foldBlocks(std::span<const uint32_t> queue, std::span<AdaptivePixel> pixels)
 {
     Kernel<> kernel = {};
     for (uint32_t i : queue) {
-        kernel.addBlock(pixels[i].block, pixels[i].film);
+        kernel.addBlock(pixels[i].block, pixels[i].firstSample, pixels[i].film);
         pixels[i].block = kernel.emptyBlock();
     }
+}
+
+void estimatePixels(const AdaptiveRule& rule, const EstimatesView& view, std::span<const uint32_t> queue,
+                    std::span<const AdaptivePixel> pixels)
+{
+    Kernel<> kernel = {};
+    for (uint32_t i : queue) {
+        FilmPixel film = pixels[i].film;
+        kernel.addBlock(pixels[i].block, pixels[i].firstSample, film);
+        const size_t place =
+            size_t{view.y + i / view.tileWidth} * view.width + view.x + i % view.tileWidth;
+        view.estimates[place] = kernel.estimateOf(rule, film);
+    }
+}
+
+void decidePixels(const AdaptiveRule& rule, const AdaptiveFloors& floors, uint passes,
+                  const EstimatesView& view, std::span<const uint32_t> queue,
+                  std::span<AdaptivePixel> pixels)
+{
+    Kernel<> kernel = {};
+    kernel.estimates = view.estimates;
+    kernel.pictureWidth = view.width;
+    for (uint32_t i : queue) {
+        AdaptivePixel& pixel = pixels[i];
+        const uint x = view.x + i % view.tileWidth;
+        const uint y = view.y + i / view.tileWidth;
+        if (rule.rule == ADAPTIVE_CROSSED) {
+            const uvec2 wanted = kernel.wantedByCrossed(rule, floors, x, y);
+            pixel.wantedA = wanted.x;
+            pixel.wantedB = wanted.y;
+            pixel.state = kernel.stateByCrossed(rule, wanted.x, wanted.y, passes);
+        } else {
+            const uint n = kernel.samplesOf(pixel.film) + pixel.block.samplesDone;
+            pixel.state = kernel.stateByJoint(rule, floors, x, y, n);
+        }
+    }
+}
+
+std::vector<uint32_t> advanceHalves(const AdaptiveRule& rule, uint pass, std::span<const uint32_t> queue,
+                                    std::span<AdaptivePixel> pixels)
+{
+    Kernel<> kernel = {};
+    std::vector<uint32_t> goingOn;
+    for (uint32_t i : queue) {
+        AdaptivePixel& pixel = pixels[i];
+        pixel.state = kernel.stateByCrossed(rule, pixel.wantedA, pixel.wantedB, pass + 1);
+        if (kernel.halfGoesOn(rule, pixel.wantedA, pixel.wantedB, pass)) goingOn.push_back(i);
+    }
+    return goingOn;
+}
+
+std::vector<uint32_t> takersOf(const AdaptiveRule& rule, uint pass, std::span<const AdaptivePixel> pixels)
+{
+    Kernel<> kernel = {};
+    std::vector<uint32_t> takers;
+    for (uint32_t i = 0; i < pixels.size(); i++) {
+        const AdaptivePixel& pixel = pixels[i];
+        const bool lacks = pass % 2 == 0 ? kernel.lacksInA(rule, pixel.wantedA, pass)
+                                         : kernel.lacksInB(rule, pixel.wantedB, pass);
+        if (lacks) takers.push_back(i);
+    }
+    return takers;
 }
 
 void renderFirstHits(const DeviceScene& scene, const TileRequest& tile, unsigned threads,

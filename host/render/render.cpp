@@ -31,6 +31,12 @@ void addToFilm(const std::vector<FinishedTile>& tiles, Film& film)
 
 }  // namespace
 
+StoppedBy stopsAfter(const RenderPlan& plan, uint32_t passes, double seconds)
+{
+    if (plan.maxPasses > 0 && passes >= plan.maxPasses) return StoppedBy::passes;
+    return plan.timeLimit > 0 && seconds >= plan.timeLimit ? StoppedBy::time : StoppedBy::nothing;
+}
+
 TileRequest inFullPicture(TileRequest tile, const RenderPlan& plan)
 {
     tile.x += plan.left;
@@ -102,7 +108,10 @@ RenderResult renderPicture(Device& device, const RenderPlan& plan,
         progress.rays = raysOf(result.film.counters);
         progress.relativeError = relativeError(result.film);
         result.seconds = secondsSoFar();
-        if (passDone && done < plan.sampleCount) passDone(result);
+        if (done >= plan.sampleCount) break;
+        result.stoppedBy = stopsAfter(plan, result.passes, result.seconds);
+        if (result.stoppedBy != StoppedBy::nothing) break;
+        if (passDone) passDone(result);
     }
     result.seconds = secondsSoFar();
     return result;

@@ -15,7 +15,12 @@ struct RenderPlan {
     uint32_t sampleCount = 0;        ///< per pixel, at least 1
     uint32_t tileSize = 0;           ///< side of a tile [pixels]; 0: as large as the device takes
     uint32_t left = 0, top = 0;      ///< of the window, in the scene's full picture [pixels]
+    uint32_t maxPasses = 0;          ///< after which to stop; 0: when all samples are there
+    double timeLimit = 0;            ///< after which no pass begins [s]; 0: none. One pass always runs
 };
+
+/// Why a render ended before all samples were there, a signal aside.
+enum class StoppedBy { nothing, passes, time };
 
 struct RenderProgress {
     double fraction = 0;         ///< of all samples of all pixels
@@ -30,6 +35,7 @@ struct AdaptiveOutcome {
     uint64_t pixels = 0;     ///< of the picture
     uint64_t converged = 0;  ///< that the rule stopped
     uint64_t atMaximum = 0;  ///< that have maxSamples without; the others were interrupted
+    bool operator==(const AdaptiveOutcome&) const = default;
 };
 
 struct RenderResult {
@@ -39,7 +45,11 @@ struct RenderResult {
                                ///< it was the first: then its finished tiles are
     double seconds = 0;
     AdaptiveOutcome adaptive = {};  ///< of renderAdaptive() alone
+    StoppedBy stoppedBy = StoppedBy::nothing;
 };
+
+/// Whether the plan ends a render after `passes` passes and `seconds` seconds.
+StoppedBy stopsAfter(const RenderPlan& plan, uint32_t passes, double seconds);
 
 /// Calls device.render() for every tile of every pass; the device's scene must be set.
 /// The film has the plan's width and height; every pixel is that of the full picture, bit for bit.

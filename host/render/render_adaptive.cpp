@@ -1,5 +1,8 @@
 #include "render/render_adaptive.h"
 
+#include "device/adaptive_schedule.h"
+#include "render/adaptive_passes.h"
+#include "util/error.h"
 #include "util/interrupt.h"
 #include "util/memory.h"
 
@@ -9,13 +12,6 @@
 namespace sahl {
 
 namespace {
-
-struct TileInWork {
-    TileRequest request;  // within the plan's window
-    std::unique_ptr<AdaptiveTile> tile;
-    uint32_t active = 0;  // pixels
-    uint32_t passes = 0;
-};
 
 /// How many of the tiles from `first` on can be in work together: one at least.
 size_t batchSize(std::span<const TileRequest> tiles, size_t first, uint64_t maxPixels)
@@ -45,6 +41,7 @@ public:
           result_{Film(plan.width, plan.height), 0, false, 0}
     {
         result_.adaptive.pixels = uint64_t{plan.width} * plan.height;
+        result_.film.halvesWeighEqually = rule.rule == ADAPTIVE_CROSSED;
         samplesMissing_ = double(result_.adaptive.pixels) * rule.maxSamples;
     }
 
@@ -52,12 +49,14 @@ public:
     {
         std::vector<TileRequest> all =
             tilesOf(plan_.width, plan_.height, plan_.tileSize, device_.maxTilePixels());
+        for (TileRequest& tile : all) tile = inFullPicture(tile, plan_);
         std::span<const TileRequest> tiles = all;
         // Software devices take the host's memory, others a copy of theirs there.
-        uint64_t maxPixels =
-            std::min(device_.maxAdaptivePixels(), availableMemory() / 2 / sizeof(AdaptivePixel));
+        constexpr uint64_t PER_PIXEL = sizeof(AdaptivePixel) + sizeof(PixelEstimate);
+        uint64_t maxPixels = std::min(device_.maxAdaptivePixels(), availableMemory() / 2 / PER_PIXEL);
         for (size_t first = 0; first < tiles.size() && !result_.interrupted;) {
             size_t count = batchSize(tiles, first, maxPixels);
+            if (count < tiles.size()) requireNoneTogether(maxPixels);
             renderTogether(tiles.subspan(first, count));
             first += count;
         }
@@ -66,66 +65,71 @@ public:
     }
 
 private:
-    void renderTogether(std::span<const TileRequest> requests)
+    /// Some rules, and a limit in time, need all pixels at once.
+    void requireNoneTogether(uint64_t maxPixels) const
     {
-        std::vector<TileInWork> tiles;
-        for (const TileRequest& request : requests) {
-            tiles.push_back({request, device_.beginAdaptive(inFullPicture(request, plan_), rule_),
-                             request.width * request.height, 0});
-        }
-        uint32_t passes = 0;
-        auto isActive = [](const TileInWork& tile) { return tile.active > 0; };
-        while (std::ranges::any_of(tiles, isActive) && runPass(tiles)) {
-            passes++;
-            progress_.samplesDone = std::min(passes * BLOCK_SIZE, rule_.maxSamples);
-            if (passDone_) passDone_([&] { return resultWith(tiles, passes); });
-        }
-        result_ = resultWith(tiles, passes);
+        const bool neighbours = looksAtNeighbours(rule_);
+        if (!neighbours && plan_.timeLimit <= 0) return;
+        throw Error(ErrorKind::deviceLost,
+                    fmt::format("{} keeps all {} pixels of the picture at work, and '{}' has room for {} "
+                                "of them; render it in parts with --crop, or a smaller one",
+                                neighbours ? "a rule that looks at neighbours" : "--time-limit",
+                                result_.adaptive.pixels, device_.info().name, maxPixels));
     }
 
-    /// What there was before and what the tiles had after `passes` passes.
-    RenderResult resultWith(std::span<const TileInWork> tiles, uint32_t passes) const
+    void renderTogether(std::span<const TileRequest> tiles)
+    {
+        const AdaptiveWindow window = {plan_.left, plan_.top, plan_.width, plan_.height};
+        AdaptivePasses work(device_, window, tiles, rule_);
+        while (!work.isFinished() && runPass(work)) {
+            progress_.samplesDone = std::min(work.passes() * BLOCK_SIZE, rule_.maxSamples);
+            if (work.isFinished()) break;
+            result_.stoppedBy = stopsAfter(plan_, work.passes(), secondsSoFar());
+            if (result_.stoppedBy != StoppedBy::nothing) break;
+            if (passDone_) passDone_([&] { return resultWith(work); });
+        }
+        result_ = resultWith(work);
+    }
+
+    /// What there was before and what the tiles have after their whole passes.
+    RenderResult resultWith(const AdaptivePasses& work) const
     {
         RenderResult result = result_;
-        for (const TileInWork& tile : tiles) addTile(tile, passes, result);
-        result.passes = std::max(result.passes, passes);
+        for (const TileInWork& tile : work.tiles()) addTile(tile, work.passes(), result);
+        result.passes = std::max(result.passes, work.passes());
         result.seconds = secondsSoFar();
         return result;
     }
 
-    /// One pass of every tile that has active pixels; false when a signal came before its end.
-    bool runPass(std::vector<TileInWork>& tiles)
+    /// False when a signal came before the end of the pass.
+    bool runPass(AdaptivePasses& work)
     {
-        for (TileInWork& work : tiles) {
-            if (work.active == 0) continue;
-            if (interruptSignal() != 0) {
-                result_.interrupted = true;
-                return false;
-            }
-            uint32_t before = work.active;
-            AdaptivePass pass = work.tile->runPass();
-            work.active = pass.activePixels;
-            work.passes++;
-            reportPass(work, before, pass);
-        }
-        return true;
+        auto mayGoOn = [&] { return !(result_.interrupted = interruptSignal() != 0); };
+        return work.runPass(mayGoOn, [&](const TileInWork& tile, uint32_t before, const AdaptivePass& pass) {
+            reportPass(tile, before, pass);
+        });
+    }
+
+    /// Where halves go apart a pixel is active in each, with half of the samples.
+    double samplesLeft(uint32_t active, uint32_t passes) const
+    {
+        const double left = std::max(double(rule_.maxSamples) - double(passes) * BLOCK_SIZE, 0.0);
+        return double(active) * left / (halvesGoApart(rule_, passes) ? 2 : 1);
     }
 
     void reportPass(const TileInWork& work, uint32_t activeBefore, const AdaptivePass& pass)
     {
-        double left = double(rule_.maxSamples) - double(work.passes) * BLOCK_SIZE;
-        samplesMissing_ -=
-            double(activeBefore) * std::min(left + BLOCK_SIZE, double(rule_.maxSamples));
-        samplesMissing_ += double(work.active) * std::max(left, 0.0);
+        samplesMissing_ -= samplesLeft(activeBefore, work.passes - 1);
+        samplesMissing_ += samplesLeft(work.active, work.passes);
         samplesDone_ += double(pass.samples);
-        progress_.fraction = samplesDone_ / (samplesDone_ + samplesMissing_);
+        progress_.fraction = std::min(samplesDone_ / (samplesDone_ + std::max(samplesMissing_, 0.0)), 1.0);
         progress_.rays += pass.rays;
         progress_.seconds = secondsSoFar();
         report_(progress_);
     }
 
     /// An interrupted first pass keeps its finished tiles.
-    static void addTile(const TileInWork& work, uint32_t passes, RenderResult& result)
+    void addTile(const TileInWork& work, uint32_t passes, RenderResult& result) const
     {
         const TileRequest& at = work.request;
         std::vector<AdaptivePixel> pixels(size_t{at.width} * at.height);
@@ -136,7 +140,7 @@ private:
             result.adaptive.converged += pixel.state == PIXEL_CONVERGED ? 1 : 0;
             result.adaptive.atMaximum += pixel.state == PIXEL_AT_MAXIMUM ? 1 : 0;
         }
-        result.film.add(at.x, at.y, at.width, at.height, pixels, withNewest);
+        result.film.add(at.x - plan_.left, at.y - plan_.top, at.width, at.height, pixels, withNewest);
     }
 
     double secondsSoFar() const

@@ -1,5 +1,7 @@
 // A device against the reference under adaptive sampling: every sum, every count, every decision.
 
+#include "device/adaptive_schedule.h"
+#include "render/adaptive_passes.h"
 #include "render/render.h"
 #include "render/verify.h"
 #include "util/interrupt.h"
@@ -25,22 +27,27 @@ uint32_t samplesOf(const AdaptivePixel& pixel)
     return pixel.film.samplesA + pixel.film.samplesB + pixel.block.samplesDone;
 }
 
-/// A tile on one device, to its end.
+/// Some tiles on one device, to their end.
 struct Side {
     Device& device;
     double& seconds;
-    std::vector<AdaptivePixel> pixels = {};
+    Film& film;
+    std::vector<std::vector<AdaptivePixel>> pixels = {};  // of each tile
     bool interrupted = false;
 
-    void render(const TileRequest& request, const AdaptiveRule& rule, Film& film)
+    void render(const AdaptiveWindow& window, std::span<const TileRequest> tiles, const AdaptiveRule& rule)
     {
         auto start = std::chrono::steady_clock::now();
-        auto tile = device.beginAdaptive(request, rule);
-        pixels.resize(size_t{request.width} * request.height);
-        while (tile->runPass().activePixels > 0 && !interrupted)
-            interrupted = interruptSignal() != 0;
-        tile->read(pixels);
-        film.add(request.x, request.y, request.width, request.height, pixels, true);
+        AdaptivePasses work(device, window, tiles, rule);
+        auto mayGoOn = [&] { return !(interrupted = interruptSignal() != 0); };
+        while (!work.isFinished() && work.runPass(mayGoOn, [](auto&&...) {})) continue;
+        pixels.clear();
+        for (const TileInWork& done : work.tiles()) {
+            const TileRequest& at = done.request;
+            pixels.emplace_back(size_t{at.width} * at.height);
+            done.tile->read(pixels.back());
+            film.add(at.x, at.y, at.width, at.height, pixels.back(), true);
+        }
         seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
 };
@@ -82,27 +89,36 @@ VerifyResult verifyAdaptive(Device& device, Device& reference, const DeviceScene
     result.referenceFilm = Film(width, height);
     device.setScene(scene);
     reference.setScene(scene);
-    Side ours = {device, result.deviceSeconds};
-    Side theirs = {reference, result.referenceSeconds};
+    result.deviceFilm.halvesWeighEqually = rule.rule == ADAPTIVE_CROSSED;
+    result.referenceFilm.halvesWeighEqually = rule.rule == ADAPTIVE_CROSSED;
+    Side ours = {device, result.deviceSeconds, result.deviceFilm};
+    Side theirs = {reference, result.referenceSeconds, result.referenceFilm};
     std::optional<FirstPixel> first;
-    std::vector<TileRequest> tiles = tilesOf(
+    std::vector<TileRequest> all = tilesOf(
         width, height, tileSize, std::min(device.maxTilePixels(), reference.maxTilePixels()));
-    double tilesDone = 0;
-    for (const TileRequest& tile : tiles) {
-        ours.render(tile, rule, result.deviceFilm);
-        theirs.render(tile, rule, result.referenceFilm);
+    const size_t together = looksAtNeighbours(rule) ? all.size() : 1;
+    for (size_t done = 0; done < all.size(); done += together) {
+        const auto tiles = std::span(all).subspan(done, together);
+        ours.render({0, 0, width, height}, tiles, rule);
+        report((double(done) + double(together) / 2) / double(all.size()));
+        theirs.render({0, 0, width, height}, tiles, rule);
         if (ours.interrupted || theirs.interrupted) {
             result.interrupted = true;
             return result;
         }
-        for (uint32_t i = 0; i < ours.pixels.size(); i++) {
-            if (sameBits(ours.pixels[i], theirs.pixels[i])) continue;
-            result.differingPixels++;
-            FirstPixel pixel = {tile.x + i % tile.width, tile.y + i / tile.width,
-                                std::min(samplesOf(ours.pixels[i]), samplesOf(theirs.pixels[i]))};
-            if (!first || std::tie(pixel.y, pixel.x) < std::tie(first->y, first->x)) first = pixel;
+        for (size_t t = 0; t < tiles.size(); t++) {
+            const TileRequest& tile = tiles[t];
+            for (uint32_t i = 0; i < ours.pixels[t].size(); i++) {
+                const AdaptivePixel& a = ours.pixels[t][i];
+                const AdaptivePixel& b = theirs.pixels[t][i];
+                if (sameBits(a, b)) continue;
+                result.differingPixels++;
+                FirstPixel pixel = {tile.x + i % tile.width, tile.y + i / tile.width,
+                                    std::min(samplesOf(a), samplesOf(b))};
+                if (!first || std::tie(pixel.y, pixel.x) < std::tie(first->y, first->x)) first = pixel;
+            }
         }
-        report(++tilesDone / double(tiles.size()));
+        report(double(done + together) / double(all.size()));
     }
     result.differingFilmBits = differingBits(result.deviceFilm, result.referenceFilm);
     if (first) result.first = locateIn(device, reference, scene, *first);

@@ -24,7 +24,7 @@ const KeySet DESCRIPTION = {
 const std::vector<std::string> SETTINGS_KEYS = {
     "width",  "height", "samplesPerPixel", "maxBounces", "seed",    "integrator",
     "jitter", "terms",  "shadows",         "normals",    "ambient", "adaptive"};
-static_assert(sizeof(RenderSettings) == 60, "is the new setting saved, too?");
+static_assert(sizeof(RenderSettings) == 76, "is the new setting saved, too?");
 const KeySet SETTINGS = {"", SETTINGS_KEYS, SETTINGS_KEYS};
 const KeySet CAMERA = {"",
                        {"eye", "lookAt", "up", "axes", "fovDeg", "fovHorizontal",
@@ -64,6 +64,7 @@ Json describe(const RenderSettings& settings)
             {"adaptive",
              {{"rule", adaptiveRuleName(settings.adaptive.rule)},
               {"epsilon", double{settings.adaptive.epsilon}},
+              {"targetError", double{settings.adaptive.targetError}},
               {"minSamples", settings.adaptive.minSamples},
               {"maxSamples", settings.adaptive.maxSamples}}}};
 }

@@ -37,7 +37,8 @@ struct RenderSettings {
     bool jitter = true;  ///< samples spread over the pixel rather than all through its centre
     uint32_t shading = SHADING_TERMS;  ///< SHADING_* bits: terms, shadows and normals
     vec3 ambient = vec3(0.1f);         ///< for phong: radiance from everywhere [W m^-2 sr^-1]
-    AdaptiveRule adaptive = {ADAPTIVE_NONE, 1e-4f, 20, 1000};  ///< with a rule, `spp` has no meaning
+    /// With a rule, `spp` has no meaning.
+    AdaptiveRule adaptive = {ADAPTIVE_NONE, 1e-4f, 20, 1000, 0.05f, 0, 0, 0};
 };
 
 /// What points right and up in the picture, of any length, at a right angle to each other. The
@@ -112,6 +113,7 @@ struct SceneOptions {
     std::optional<bool> flatNormals;     ///< geometric normals in place of interpolated ones
     std::optional<uint32_t> adaptive, minSpp, maxSpp;  ///< rule (one of ADAPTIVE_*) and bounds
     std::optional<float> epsilon;                      ///< of ADAPTIVE_REPORT
+    std::optional<float> targetError;                  ///< of ADAPTIVE_CROSSED and _JOINT
     std::optional<fs::path> probe;            ///< replaces the environment
     std::optional<std::string> probeMapping;  ///< "latlong" or "angular"
     std::optional<std::string> probeFilter;   ///< "nearest" or "bilinear"

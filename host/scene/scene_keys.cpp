@@ -101,7 +101,7 @@ const std::vector<KeySet>& sceneKeys()
          {"type", "maxBounces", "samplesPerPixel", "seed", "terms", "shadows", "normals",
           "ambient", "adaptive"},
          {}},
-        {"adaptive", {"rule", "epsilon", "minSamples", "maxSamples"}, {"rule"}},
+        {"adaptive", {"rule", "epsilon", "targetError", "minSamples", "maxSamples"}, {"rule"}},
         {"lambertMaterial",
          {"type", "baseColor", "emission", "specularColor", "shininess", "ambientColor"},
          {"type"}},

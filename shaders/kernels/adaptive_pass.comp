@@ -1,6 +1,6 @@
 // What surrounds a pass of adaptive sampling, over one queue at a time: its blocks go into the film
 // once the next pass begins, it is inspected for blocks that are not complete, and pixels that the rule
-// has not stopped are put into the queue of the next pass. Their order there is free.
+// has not stopped are put into the queue of a later pass. Their order there is free.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -10,11 +10,12 @@
 #define ADAPTIVE_BINDING 0
 #include "kernels/adaptive.glsl"
 #include "pathtrace/film_sums.glsl"
+#include "pathtrace/adaptive_schedule.glsl"
 
 void fold(uint index)
 {
     FilmPixel film = pixels[index].film;
-    addBlock(pixels[index].block, film);
+    addBlock(pixels[index].block, pixels[index].firstSample, film);
     pixels[index].film = film;
     pixels[index].block = emptyBlock();
 }
@@ -37,7 +38,13 @@ void advance(uint index)
     uint rays = block.samplesDone + block.indirectRays + block.shadowRays;
     uint before = atomicAdd(counts.rays.x, rays);
     if (before + rays < before) atomicAdd(counts.rays.y, 1u);
-    if (pixels[index].state != PIXEL_ACTIVE) return;
+    if (job.nextQueue == QUEUE_NONE || pixels[index].state != PIXEL_ACTIVE) return;
+    if (job.rule.rule == ADAPTIVE_CROSSED && pixels[index].wantedA != 0u) {
+        uint wantedA = pixels[index].wantedA;
+        uint wantedB = pixels[index].wantedB;
+        pixels[index].state = stateByCrossed(job.rule, wantedA, wantedB, job.pass + 1u);
+        if (!halfGoesOn(job.rule, wantedA, wantedB, job.pass)) return;
+    }
     uint place = atomicAdd(counts.activePixels, 1u);
     pixels[place].queue[job.nextQueue] = index;
 }

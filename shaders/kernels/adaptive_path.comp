@@ -18,7 +18,8 @@ void main()
     uint index = queuedPixel(slot);
     PixelBlock block = pixels[index].block;
     if (block.samplesDone == BLOCK_SIZE || pixels[index].state != PIXEL_ACTIVE) return;
-    uint sampleIndex = pixels[index].film.samplesA + pixels[index].film.samplesB + block.samplesDone;
+    uint sampleIndex = job.pass * BLOCK_SIZE + block.samplesDone;
+    pixels[index].firstSample = job.pass * BLOCK_SIZE;
 
     stepsLeft = job.stepBudget;
     faults = 0u;

@@ -1,4 +1,5 @@
-// When a pixel has enough samples: decided after every sample, from that pixel's samples alone.
+// The rule `report`: decided after every sample, from that pixel's samples alone. Other rules decide
+// between passes (adaptive_halves.glsl).
 
 /// The report's rule: stop when a sample has moved the mean by less than epsilon in every channel,
 /// |m(n) - m(n-1)| = |a(n) - m(n-1)| / n, once there are minSamples (and two means to compare).
@@ -15,6 +16,7 @@ bool stopsByReport(AdaptiveRule rule, vec3 L, uint n, INOUT(vec3) mean)
 /// Takes the newest sample of a pixel into account and gives the pixel's PIXEL_*.
 uint stateAfter(AdaptiveRule rule, vec3 L, uint n, INOUT(vec3) mean)
 {
+    if (rule.rule != ADAPTIVE_REPORT) return PIXEL_ACTIVE;
     if (stopsByReport(rule, L, n, mean)) return PIXEL_CONVERGED;
     return n >= rule.maxSamples ? PIXEL_AT_MAXIMUM : PIXEL_ACTIVE;
 }

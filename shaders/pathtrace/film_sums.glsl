@@ -42,6 +42,33 @@ uvec4 fixedFromFloat(float value)
     return uvec4(0u, 0u, 0u, low);
 }
 
+/// Zeros above the highest bit that is set in x > 0.
+uint leadingZeros(uint x)
+{
+    uint zeros = 0u;
+    if (x < 0x00010000u) { zeros += 16u; x <<= 16u; }
+    if (x < 0x01000000u) { zeros += 8u; x <<= 8u; }
+    if (x < 0x10000000u) { zeros += 4u; x <<= 4u; }
+    if (x < 0x40000000u) { zeros += 2u; x <<= 2u; }
+    return x < 0x80000000u ? zeros + 1u : zeros;
+}
+
+/// A fixed-point number as a float: bits below the 24 highest are cut.
+float floatFromFixed(uvec4 number)
+{
+    uint high = number.w;
+    uint low = number.z;
+    uint place = 96u;  // of the lowest bit of `high`, counted from 2^-64
+    if (high == 0u) { high = low; low = number.y; place = 64u; }
+    if (high == 0u) { high = low; low = number.x; place = 32u; }
+    if (high == 0u) { high = low; low = 0u; place = 0u; }
+    if (high == 0u) return 0.0f;
+    uint zeros = leadingZeros(high);
+    uint bits = zeros == 0u ? high : (high << zeros) | (low >> (32u - zeros));
+    uint exponent = (place + 31u - zeros) + 63u;  // of the highest bit: its place - 64, biased by 127
+    return uintBitsToFloat((exponent << 23u) | ((bits >> 8u) & 0x7fffffu));
+}
+
 /// A count of 64 bits, low word in x.
 uvec2 countSum(uvec2 count, uint added)
 {
@@ -60,11 +87,10 @@ void addSums(PixelBlock block, INOUT(FilmSums) sums)
 
 uint samplesOf(FilmPixel film) { return film.samplesA + film.samplesB; }
 
-/// Puts a pixel's next block into its film. Blocks go to the halves A and B in turn.
-void addBlock(PixelBlock block, INOUT(FilmPixel) film)
+/// Puts a block of a pixel into its film. Even blocks belong to half A, odd ones to B; BLOCK_SIZE is 8.
+void addBlock(PixelBlock block, uint firstSample, INOUT(FilmPixel) film)
 {
-    uint blocks = (samplesOf(film) + 7u) >> 3u;  // BLOCK_SIZE is 8; only the last may be shorter
-    if ((blocks & 1u) == 0u) {
+    if (((firstSample >> 3u) & 1u) == 0u) {
         addSums(block, film.sumsA);
         film.samplesA += block.samplesDone;
     } else {

@@ -119,28 +119,22 @@ TEST_F(Adaptive, hasTheSameBitsWhenTheDriverCutsLoops)
     }
 }
 
-/// A device that has room for few pixels under adaptive sampling.
-struct SmallDevice : Device {
-    std::unique_ptr<Device> inner;
-    DeviceInfo info() const override { return inner->info(); }
-    void setScene(const DeviceScene& scene) override { inner->setScene(scene); }
-    void render(const TileRequest& tile, std::span<PixelBlock> blocks) override
-    {
-        inner->render(tile, blocks);
+TEST_F(Adaptive, aWindowHasTheBitsOfTheFullPicture)
+{
+    for (const char* side : {"cpu", "device"}) {
+        auto device = side == std::string("cpu") ? makeCpuDevice({}) : openFirstDevice();
+        device->setScene(scene().deviceScene());
+        RenderPlan plan = {13, 9, 0, 0, 5, 11, 7};
+        const Film window = renderAdaptive(*device, plan, RULE, [](const RenderProgress&) {}).film;
+        for (uint32_t y = 0; y < plan.height; y++) {
+            for (uint32_t x = 0; x < plan.width; x++) {
+                const size_t here = y * plan.width + x, there = (y + plan.top) * WIDTH + x + plan.left;
+                for (int h = 0; h < 2; h++)
+                    EXPECT_TRUE(window.half[h][here] == reference().film.half[h][there]) << x << " " << y;
+            }
+        }
     }
-    void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override
-    {
-        inner->renderFirstHits(tile, pixels);
-    }
-    std::unique_ptr<AdaptiveTile> beginAdaptive(const TileRequest& tile,
-                                                const AdaptiveRule& rule) override
-    {
-        return inner->beginAdaptive(tile, rule);
-    }
-    uint32_t maxTilePixels() const override { return inner->maxTilePixels(); }
-    uint64_t maxAdaptivePixels() const override { return 300; }
-    DeviceStatistics statistics() const override { return inner->statistics(); }
-};
+}
 
 TEST_F(Adaptive, tilesThatDoNotFitTogetherAreRenderedOneAfterTheOther)
 {
@@ -162,12 +156,12 @@ TEST_F(Adaptive, verifyComparesCountsAndFindsTheFirstDifferingSample)
 
     // Another rule on one side: all samples are the same, and some pixels get more of them.
     struct Patient final : SmallDevice {
-        std::unique_ptr<AdaptiveTile> beginAdaptive(const TileRequest& tile,
-                                                    const AdaptiveRule& rule) override
+        std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,
+                                                       const AdaptiveRule& rule) override
         {
             AdaptiveRule patient = rule;
             patient.epsilon /= 2;
-            return inner->beginAdaptive(tile, patient);
+            return inner->beginAdaptive(window, patient);
         }
     } patient;
     patient.inner = makeCpuDevice({});
@@ -225,7 +219,8 @@ TEST_F(Adaptive, finishedPixelsLeaveTheQueue)
 {
     auto device = openFirstDevice();
     device->setScene(scene().deviceScene());
-    auto tile = device->beginAdaptive({0, 0, WIDTH, HEIGHT, 0, 0}, RULE);
+    auto picture = device->beginAdaptive({0, 0, WIDTH, HEIGHT}, RULE);
+    auto tile = picture->beginTile({0, 0, WIDTH, HEIGHT, 0, 0});
     uint64_t samples = 0, rays = 0;
     uint32_t active = WIDTH * HEIGHT;
     std::vector<AdaptivePixel> pixels(active);
@@ -253,7 +248,8 @@ TEST_F(Adaptive, workgroupsAreThoseOfTheActivePixels)
     VulkanHooks hooks;
     auto device = openFirstDevice();
     device->setScene(scene().deviceScene());
-    auto tile = device->beginAdaptive({0, 0, WIDTH, HEIGHT, 0, 0}, RULE);
+    auto picture = device->beginAdaptive({0, 0, WIDTH, HEIGHT}, RULE);
+    auto tile = picture->beginTile({0, 0, WIDTH, HEIGHT, 0, 0});
     uint32_t active = WIDTH * HEIGHT;
     uint32_t before = 0;
     while (active > 0) {
@@ -276,7 +272,8 @@ TEST_F(Adaptive, pictureAfterEachPassIsThatOfAsManySamples)
     auto vulkan = openFirstDevice();
     for (Device* device : {cpu.get(), vulkan.get()}) {
         device->setScene(scene().deviceScene());
-        auto tile = device->beginAdaptive({0, 0, WIDTH, HEIGHT, 0, 0}, RULE);
+        auto picture = device->beginAdaptive({0, 0, WIDTH, HEIGHT}, RULE);
+        auto tile = picture->beginTile({0, 0, WIDTH, HEIGHT, 0, 0});
         auto other = makeCpuDevice({});
         Film before(WIDTH, HEIGHT);
         std::vector<AdaptivePixel> pixels(WIDTH * HEIGHT);

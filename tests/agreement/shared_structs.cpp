@@ -1,6 +1,7 @@
 // Every field of every struct that crosses to the device arrives where the shader reads it.
 
 #include "agreement/agreement_spirv.h"
+#include "shared/adaptive_types.h"
 #include "shared/scene_types.h"
 #include "support/device_test.h"
 #include "vulkan/run_compute.h"
@@ -44,6 +45,26 @@ TEST_F(SharedStructs, areReadBackFieldByField)
     ComputeParameters parameters;
     parameters.pushConstants = job;
     runCompute(*context, testSpirv("structs"), spans, parameters);
+    for (size_t i = 0; i < expected.size(); i++) EXPECT_EQ(words[i], expected[i]) << "word " << i;
+}
+
+TEST_F(SharedStructs, ofAdaptiveSamplingAreReadBackFieldByField)
+{
+    uint32_t next = 1;
+    std::vector<uint32_t> expected;
+    std::vector<std::vector<std::byte>> arrays = {numbered<AdaptivePixel>(next, expected),
+                                                  numbered<AdaptiveCounts>(next, expected),
+                                                  numbered<PixelEstimate>(next, expected)};
+    std::vector<std::byte> job = numbered<AdaptiveDispatch>(next, expected);
+    job.erase(job.begin(), job.begin() + sizeof(AdaptiveDispatch));
+
+    std::vector<uint32_t> words(expected.size());
+    std::vector<std::span<std::byte>> spans(arrays.begin(), arrays.end());
+    spans.push_back(std::as_writable_bytes(std::span(words)));
+    auto context = openFirstContext();
+    ComputeParameters parameters;
+    parameters.pushConstants = job;
+    runCompute(*context, testSpirv("adaptive_structs"), spans, parameters);
     for (size_t i = 0; i < expected.size(); i++) EXPECT_EQ(words[i], expected[i]) << "word " << i;
 }
 

@@ -115,10 +115,10 @@ TEST_F(DeviceTest, verifyFindsTheFirstPixelSampleAndBounceOfADifference)
         {
             inner->renderFirstHits(tile, pixels);
         }
-        std::unique_ptr<AdaptiveTile> beginAdaptive(const TileRequest& tile,
-                                                    const AdaptiveRule& rule) override
+        std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,
+                                                       const AdaptiveRule& rule) override
         {
-            return inner->beginAdaptive(tile, rule);
+            return inner->beginAdaptive(window, rule);
         }
         uint32_t maxTilePixels() const override { return inner->maxTilePixels(); }
         uint64_t maxAdaptivePixels() const override { return inner->maxAdaptivePixels(); }

@@ -8,6 +8,7 @@
 #include <ImfInputFile.h>
 #include <ImfStringAttribute.h>
 
+#include <algorithm>
 #include <csignal>
 #include <regex>
 
@@ -69,6 +70,76 @@ TEST_F(AdaptiveProgram, saysWhatTheRuleDidInSummaryFileAndStatistics)
     for (const auto& [name, value] : expected) EXPECT_EQ(attributeOf(folder / "a.exr", name), value) << name;
 }
 
+TEST_F(AdaptiveProgram, saysHowNearTheTargetItCame)
+{
+    for (const char* rule : {"crossed", "joint"}) {
+        const bool unbiased = rule == std::string("crossed");
+        RunResult result = render({"--adaptive", rule, "--target-error", "0.1", "--min-spp", "32", "--max-spp", "160",
+                                   "-o", "a.exr", "--stats", "a.json", "--error-map", "error.png"});
+        ASSERT_EQ(result.exitCode, 0) << result.err;
+        EXPECT_HAS(result.err, std::string("adaptive: rule ") + rule + (unbiased ? " (unbiased)" : " (biased)") +
+                                   ", target error 0.1, 32 to 160 samples per pixel: ");
+        EXPECT_HAS(result.out, "error.png");
+
+        const std::vector<float> errors = channelOf(folder / "a.exr", "error.Y");
+        const double reached =
+            double(std::count_if(errors.begin(), errors.end(), [](float e) { return e <= 0.1f; })) /
+            double(errors.size());
+        const auto adaptive = nlohmann::json::parse(textOf(folder / "a.json"))["adaptive"];
+        EXPECT_DOUBLE_EQ(adaptive["reachedShare"], reached);
+        EXPECT_GT(reached, 0.3);
+        EXPECT_EQ(adaptive["biased"], !unbiased);
+        EXPECT_EQ(adaptive["targetError"], 0.1);
+        EXPECT_GT(adaptive["frameError"], 0.0);
+        EXPECT_LT(adaptive["frameError"], 0.1);
+        EXPECT_EQ(attributeOf(folder / "a.exr", "sahl.adaptive"), rule);
+        EXPECT_EQ(attributeOf(folder / "a.exr", "sahl.biased"), unbiased ? "no" : "yes");
+        EXPECT_EQ(attributeOf(folder / "a.exr", "sahl.targetError"), "0.1");
+        EXPECT_EQ(attributeOf(folder / "a.exr", "sahl.stopped"), "no");
+    }
+}
+
+TEST_F(AdaptiveProgram, passesMakeThePictureOfATimeLimitAgain)
+{
+    const std::vector<Arguments> ways = {{"--spp", "4096"},
+                                         {"--adaptive", "crossed", "--target-error", "1e-6", "--max-spp", "4096"}};
+    for (const Arguments& way : ways) {
+        auto with = [&](Arguments more) {
+            more.insert(more.end(), way.begin(), way.end());
+            return render(more);
+        };
+        RunResult limited = with({"--time-limit", "0", "-o", "a.exr"});
+        ASSERT_EQ(limited.exitCode, 0) << limited.err;
+        EXPECT_EQ(attributeOf(folder / "a.exr", "sahl.stopped"), "time");
+        EXPECT_EQ(attributeOf(folder / "a.exr", "sahl.passes"), "1");
+        EXPECT_EQ(attributeOf(folder / "a.exr", "sahl.sampleCount"), "8");
+        EXPECT_HAS(limited.err, "stopped by the time limit after 1 passes; --passes 1 makes the same picture again");
+
+        ASSERT_EQ(with({"--passes", "1", "-o", "b.exr"}).exitCode, 0);
+        EXPECT_EQ(attributeOf(folder / "b.exr", "sahl.stopped"), "passes");
+        EXPECT_EQ(readImage(folder / "a.exr").rgb, readImage(folder / "b.exr").rgb);
+        ASSERT_EQ(with({"--passes", "3", "-o", "c.exr"}).exitCode, 0);
+        EXPECT_EQ(attributeOf(folder / "c.exr", "sahl.sampleCount"), "24");
+        EXPECT_NE(readImage(folder / "c.exr").rgb, readImage(folder / "b.exr").rgb);
+    }
+    // More passes than there are change nothing.
+    ASSERT_EQ(render({"--spp", "9", "--passes", "7", "-o", "d.exr"}).exitCode, 0);
+    EXPECT_EQ(attributeOf(folder / "d.exr", "sahl.stopped"), "no");
+    EXPECT_EQ(attributeOf(folder / "d.exr", "sahl.sampleCount"), "9");
+}
+
+TEST_F(AdaptiveProgram, cropAndPartialGoWithEveryRule)
+{
+    for (const char* rule : {"crossed", "joint", "report"}) {
+        RunResult result = render({"--adaptive", rule, "--max-spp", "64", "--crop", "3,2,7,5", "--partial", "0", "-o",
+                                   "a.exr"});
+        ASSERT_EQ(result.exitCode, 0) << result.err;
+        EXPECT_EQ(readImage(folder / "a.exr").width, 7u);
+        EXPECT_EQ(attributeOf(folder / "a.exr", "sahl.partial"), "(none)");
+        EXPECT_EQ(attributeOf(folder / "a.exr", "sahl.crop"), "3,2,7,5");
+    }
+}
+
 TEST_F(AdaptiveProgram, withoutARuleNothingIsSaidOfIt)
 {
     RunResult result = render({"-o", "a.exr"});
@@ -106,7 +177,12 @@ TEST_F(AdaptiveProgram, optionsWithoutEffectAndContradictionsAreRefused)
     expectRefused(render({"--max-spp", "100"}), 2, "--max-spp says nothing");
     expectRefused(render({"--adaptive", "report", "--spp", "8"}), 2, "--spp says nothing under adaptive");
     expectRefused(render({"--adaptive", "report", "--max-spp", "8"}), 2,
-                  "at least 20 samples per pixel and at most 8 contradict each other");
+                  "--min-spp is 20, above --max-spp, which is 8");
+    expectRefused(render({"--target-error", "0.1"}), 2, "--target-error says nothing under the rule none");
+    expectRefused(render({"--adaptive", "joint", "--epsilon", "0.1"}), 2, "--epsilon says nothing under the rule joint");
+    expectRefused(render({"--adaptive", "crossed", "--max-spp", "1000"}), 2,
+                  "--max-spp is 1000, and crossed takes samples in blocks of 8, as many in each half; give a "
+                  "multiple of 16, such as 992");
     expectRefused(render({"--adaptive", "report", "--epsilon", "0"}), 2, "--epsilon 0 is out of range");
 }
 

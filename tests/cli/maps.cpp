@@ -25,7 +25,7 @@ TEST_F(Maps, everyQuantity_becomesAPicture)
     Arguments arguments = {"-o", "a.exr"};
     std::string answer = "a.exr\n";
     for (std::string name :
-         {"nodes", "primitives", "samples", "normals", "geometric-normals", "depth", "albedo"}) {
+         {"nodes", "primitives", "samples", "error", "normals", "geometric-normals", "depth", "albedo"}) {
         arguments.insert(arguments.end(), {"--map", name + "=" + name + ".png"});
         answer += name + ".png\n";
     }

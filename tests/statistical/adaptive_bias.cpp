@@ -1,28 +1,14 @@
-// What stopping by the rule `report` does to a picture: light that is found seldom gets lost.
+// What rules of adaptive sampling do to a picture whose light is found seldom: `report` and `joint` lose some
+// of it, `crossed` does not.
 
+#include "film/film_error.h"
+#include "statistical/lamp_scene.h"
 #include "support/adaptive_scenes.h"
-#include "support/small_scenes.h"
 
 #include <gtest/gtest.h>
 
 namespace sahl::testing {
 namespace {
-
-/// A floor and a glass ball under a small bright lamp that paths meet by chance: for most pixels
-/// about one sample in a hundred is bright, all others are black.
-Scene lampScene(uint32_t size, uint32_t seed)
-{
-    Scene scene = emptyScene(size, size, 6);
-    scene.settings.seed = seed;
-    addMaterialOf(scene, MATERIAL_LAMBERT, vec3(0.7f));
-    addLevel(scene, 0, 4);
-    addMaterialOf(scene, MATERIAL_DIELECTRIC, vec3(1), 1.5f);
-    addSphere(scene, {0, 0.5f, 0}, 0.5f);
-    addMaterialOf(scene, MATERIAL_LAMBERT, vec3(0)).emission = vec3(60);
-    addLevel(scene, 3, 0.25, false);
-    lookFrom(scene, {0, 1.2, 4}, {0, 0.5, 0}, 40);
-    return scene;
-}
 
 /// Mean of all pixels' radiance (green).
 double frameMean(const Film& film)
@@ -85,6 +71,41 @@ TEST(AdaptiveBias, lampFoundByChanceLosesLight)
 TEST(LongAdaptiveBias, lampFoundByChanceLosesLightWithTheReportsNumbers)
 {
     EXPECT_LT(expectBias(64, reportRule(1e-4f, 20, 1000), 64, 16384), -0.2);
+}
+
+/// Frame means by the three rules against a long reference.
+void expectOnlyCrossedIsRight(uint32_t size, uint32_t seeds, uint32_t referenceSamples, double mostBias)
+{
+    PreparedScene scene = prepareScene(lampScene(size, 0), BvhBuild::sweep, 2);
+    const Film film = renderFilm(*makeCpuDevice({}), scene, 0, referenceSamples);
+    const double reference = frameMean(film);
+    const double ofReference = filmError(film, 1).ofFrameMean;
+    std::printf("reference %.5f +- %.3f %%\n", reference, 100 * ofReference);
+    auto measure = [&](const char* name, const AdaptiveRule& rule) {
+        const Estimate estimate = meanOver(size, rule, seeds);
+        const double error = std::hypot(estimate.standardError / reference, ofReference);
+        const double bias = estimate.mean / reference - 1;
+        std::printf("%-8s %7.3f %% +- %.3f %%, %.1f samples per pixel\n", name, 100 * bias, 100 * error,
+                    estimate.samplesPerPixel);
+        return std::pair{bias, error};
+    };
+    const auto [crossed, ofCrossed] = measure("crossed", targetRule(ADAPTIVE_CROSSED, 0.3f, 32, 512));
+    const auto [joint, ofJoint] = measure("joint", targetRule(ADAPTIVE_JOINT, 0.3f, 32, 512));
+    const auto [report, ofReport] = measure("report", reportRule(1e-4f, 32, 512));
+    EXPECT_LT(std::abs(crossed), 4 * ofCrossed);
+    EXPECT_LT(std::abs(crossed), mostBias);
+    EXPECT_LT(joint, -4 * ofJoint);
+    EXPECT_LT(report, -20 * ofReport);
+}
+
+TEST(AdaptiveBias, onlyCrossedFindsAllLight)
+{
+    expectOnlyCrossedIsRight(16, 48, 16384, 0.05);
+}
+
+TEST(LongAdaptiveBias, onlyCrossedFindsAllLight_256Renders)
+{
+    expectOnlyCrossedIsRight(64, 256, 65536, 0.01);
 }
 
 }  // namespace

@@ -8,7 +8,13 @@ namespace sahl::testing {
 
 inline AdaptiveRule reportRule(float epsilon, uint32_t minSamples, uint32_t maxSamples)
 {
-    return {ADAPTIVE_REPORT, epsilon, minSamples, maxSamples};
+    return {ADAPTIVE_REPORT, epsilon, minSamples, maxSamples, 0, 0, 0, 0};
+}
+
+/// `rule`: ADAPTIVE_CROSSED or ADAPTIVE_JOINT; samples in multiples of 16 and of 8.
+inline AdaptiveRule targetRule(uint32_t rule, float target, uint32_t minSamples, uint32_t maxSamples)
+{
+    return {rule, 0, minSamples, maxSamples, target, 0, 0, 0};
 }
 
 inline RenderResult renderAdaptiveFilm(Device& device, const PreparedScene& scene,
@@ -19,6 +25,29 @@ inline RenderResult renderAdaptiveFilm(Device& device, const PreparedScene& scen
     RenderPlan plan = {settings.width, settings.height, 0, 0, tileSize};
     return renderAdaptive(device, plan, rule, [](const RenderProgress&) {});
 }
+
+/// A device that has room for few pixels under adaptive sampling.
+struct SmallDevice : Device {
+    std::unique_ptr<Device> inner;
+    DeviceInfo info() const override { return inner->info(); }
+    void setScene(const DeviceScene& scene) override { inner->setScene(scene); }
+    void render(const TileRequest& tile, std::span<PixelBlock> blocks) override
+    {
+        inner->render(tile, blocks);
+    }
+    void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override
+    {
+        inner->renderFirstHits(tile, pixels);
+    }
+    std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,
+                                                   const AdaptiveRule& rule) override
+    {
+        return inner->beginAdaptive(window, rule);
+    }
+    uint32_t maxTilePixels() const override { return inner->maxTilePixels(); }
+    uint64_t maxAdaptivePixels() const override { return 300; }
+    DeviceStatistics statistics() const override { return inner->statistics(); }
+};
 
 inline uint32_t samplesOf(const Film& film, size_t pixel)
 {

@@ -1,5 +1,5 @@
 // The film: where blocks go, and that no split of the work changes the sums.
-#include "film/film.h"
+#include "film/film_error.h"
 #include "util/error.h"
 
 #include <gtest/gtest.h>
@@ -111,6 +111,28 @@ TEST(Film, meanImage_poolsBothHalves)
     EXPECT_EQ(mean.width, 2u);
     EXPECT_EQ(mean.height, 1u);
     EXPECT_EQ(mean.rgb, (std::vector<float>{1, 2, 4, 0, 0, 0}));  // no samples: black
+}
+
+TEST(Film, meanImage_isThatOfTheHalvesMeansWhereTheseWeighEqually)
+{
+    // A: 16 samples of 1; B: 8 samples of 4.
+    Film film(1, 1);
+    PixelBlock block = {};
+    block.samplesDone = 8;
+    block.sum = vec3(8);
+    block.sumY2 = 8;
+    for (uint32_t first : {0u, 16u}) film.add(0, 0, 1, 1, first, {&block, 1});
+    film.halvesWeighEqually = true;
+    EXPECT_EQ(meanImage(film).rgb[0], 1.0f) << "without B there is only A";
+    block.sum = vec3(32);
+    block.sumY2 = 8 * 23;  // some spread: variance 7 of a mean square of 23 about 16
+    film.add(0, 0, 1, 1, 8, {&block, 1});
+    EXPECT_EQ(meanImage(film).rgb[0], 2.5f);
+    // Variance: A none, B 7 8/7 / 8 = 1 of its mean, a quarter of that of the picture.
+    EXPECT_NEAR(pixelStatistics(film, 0).varianceOfMean, 0.25, 1e-6);
+    EXPECT_NEAR(pixelErrors(film)[0], 0.5 / 2.5, 1e-6);
+    film.halvesWeighEqually = false;
+    EXPECT_EQ(meanImage(film).rgb[0], 2.0f);
 }
 
 TEST(Film, meanImage_roundsTheExactSumOnce)

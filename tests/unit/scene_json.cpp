@@ -1,4 +1,5 @@
 // Scene files: what the keys mean, and where mistakes are said to be.
+#include "scene/adaptive.h"
 #include "scene/json_document.h"
 #include "scene/scene_keys.h"
 #include "support/scene_files.h"
@@ -266,6 +267,26 @@ TEST(JsonScene, readsAdaptiveSampling)
     EXPECT_EQ(given.epsilon, 0.5f);
     EXPECT_EQ(given.minSamples, 3u);
     EXPECT_EQ(given.maxSamples, 4u);
+    for (const char* name : {"crossed", "joint"}) {
+        const AdaptiveRule rule =
+            loadJson(fmt::format(R"({{ "integrator": {{ "adaptive": {{ "rule": "{}", "targetError": 0.25 }} }} }})",
+                                 name))
+                .settings.adaptive;
+        EXPECT_STREQ(adaptiveRuleName(rule.rule), name);
+        EXPECT_EQ(rule.targetError, 0.25f);
+        EXPECT_EQ(rule.minSamples, 64u);
+        EXPECT_EQ(rule.maxSamples, 1024u);
+    }
+}
+
+TEST(JsonScene, refusesBoundsThatAreNoWholeBlocks)
+{
+    EXPECT_CONTAINS(
+        errorOfJson(R"({ "integrator": { "adaptive": { "rule": "crossed", "maxSamples": 1000 } } })"),
+        "maxSamples is 1000, and crossed takes samples in blocks of 8, as many in each half; give a multiple of "
+        "16, such as 992");
+    EXPECT_CONTAINS(errorOfJson(R"({ "integrator": { "adaptive": { "rule": "joint", "minSamples": 7 } } })"),
+                    "minSamples is 7, and joint takes samples in blocks of 8; give a multiple of 8, such as 8");
 }
 
 TEST(JsonScene, refusesAdaptiveSamplingWhoseMinimumIsAboveItsMaximum)

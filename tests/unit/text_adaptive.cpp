@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <functional>
@@ -34,7 +35,7 @@ Stopped runRule(const AdaptiveRule& rule, const std::function<vec3(uint32_t)>& s
 
 AdaptiveRule report(float epsilon, uint32_t minSamples, uint32_t maxSamples)
 {
-    return {ADAPTIVE_REPORT, epsilon, minSamples, maxSamples};
+    return {ADAPTIVE_REPORT, epsilon, minSamples, maxSamples, 0, 0, 0, 0};
 }
 
 TEST(ReportRule, constantRadianceStopsAtTheMinimum)
@@ -173,6 +174,127 @@ TEST(ReportRule, losesRareBrightSamples)
     RecordProperty("plainError", std::to_string(plain.standardError));
 }
 
+AdaptiveRule crossed(float target, uint32_t pilots, uint32_t most)
+{
+    return {ADAPTIVE_CROSSED, 0, 2 * pilots, 2 * most, target, 0, 0, 0};
+}
+
+/// A picture of 3 x 3 pixels.
+struct Picture {
+    std::array<PixelEstimate, 9> estimates = {};
+    uvec2 wantedInTheMiddle(const AdaptiveRule& rule, const AdaptiveFloors& floors = {}) const
+    {
+        Kernel kernel = {};
+        kernel.estimates = std::span<const PixelEstimate>(estimates.data(), 9);
+        kernel.pictureWidth = 3;
+        return kernel.wantedByCrossed(rule, floors, 1, 1);
+    }
+};
+
+TEST(CrossedRule, samplesOfAHalfFollowFromTheOtherHalfAlone)
+{
+    // A standard error of 10 % of 2 is 0.2; the mean of two means of n samples each of variance 8 has a
+    // variance of 8 / (2 n): n = 100, in whole blocks 104.
+    Picture picture;
+    for (PixelEstimate& estimate : picture.estimates) estimate = {1, 0, 2, 0};
+    picture.estimates[4] = {1, 0, 2, 8};
+    uvec2 wanted = picture.wantedInTheMiddle(crossed(0.1f, 16, 512));
+    EXPECT_EQ(wanted.x, 104u);
+    EXPECT_EQ(wanted.y, 16u) << "pilots at least";
+    for (float varianceA : {0.0f, 1.0f, 1e30f}) {
+        for (float luminanceA : {0.0f, 1.0f, 1e9f}) {
+            picture.estimates[4].luminanceA = luminanceA;
+            picture.estimates[4].varianceA = varianceA;
+            EXPECT_EQ(picture.wantedInTheMiddle(crossed(0.1f, 16, 512)).x, 104u);
+        }
+    }
+}
+
+TEST(CrossedRule, aNeighbourThatAsksForMoreIsHeard)
+{
+    for (size_t i = 0; i < 9; i++) {
+        Picture picture;
+        for (PixelEstimate& estimate : picture.estimates) estimate = {1, 0, 1, 0};
+        picture.estimates[i].varianceA = 2;
+        EXPECT_EQ(picture.wantedInTheMiddle(crossed(0.1f, 8, 512)).x, 8u);
+        EXPECT_EQ(picture.wantedInTheMiddle(crossed(0.1f, 8, 512)).y, 104u) << i;  // 2 / (2 0.01), rounded up
+    }
+}
+
+TEST(CrossedRule, darkPixelsAreMeasuredByTheFloor)
+{
+    Picture picture;
+    picture.estimates[4] = {0, 0, 0.001f, 0.01f};
+    EXPECT_NEAR(picture.wantedInTheMiddle(crossed(0.1f, 8, 512)).x, 500000, 8);  // 0.01 / (2 1e-8)
+    EXPECT_EQ(picture.wantedInTheMiddle(crossed(0.1f, 8, 512), {0, 0.1f}).x, 56u);  // 0.01 / (2 1e-4) = 50
+    EXPECT_EQ(picture.wantedInTheMiddle(crossed(0.1f, 8, 512), {9, 0.1f}).x, 56u) << "A's floor says nothing of A";
+}
+
+TEST(CrossedRule, numbersAtTheEndsOfFloatsDoNoHarm)
+{
+    Picture picture;
+    picture.estimates[4] = {0, 1e-20f, 1e18f, 1e37f};
+    EXPECT_EQ(picture.wantedInTheMiddle(crossed(1e-6f, 8, 512)).x, 1u << 24) << "5e12, cut";
+    EXPECT_EQ(picture.wantedInTheMiddle(crossed(1e-6f, 8, 512)).y, 1u << 24) << "no luminance at all, but noise";
+    EXPECT_EQ(picture.wantedInTheMiddle(crossed(1, 8, 512), {1e18f, 1e18f}).y, 8u);
+}
+
+TEST(JointRule, goesOnWhileANeighbourDoes)
+{
+    Kernel kernel = {};
+    std::array<PixelEstimate, 9> estimates = {};
+    for (PixelEstimate& estimate : estimates) estimate = {1, 0.0099f, 0, 0};
+    kernel.estimates = std::span<const PixelEstimate>(estimates.data(), 9);
+    kernel.pictureWidth = 3;
+    const AdaptiveRule rule = {ADAPTIVE_JOINT, 0, 16, 64, 0.1f, 0, 0, 0};
+    EXPECT_EQ(kernel.stateByJoint(rule, {}, 1, 1, 16), PIXEL_CONVERGED);
+    estimates[0].varianceA = 0.0101f;
+    EXPECT_EQ(kernel.stateByJoint(rule, {}, 1, 1, 16), PIXEL_ACTIVE);
+    EXPECT_EQ(kernel.stateByJoint(rule, {}, 1, 1, 64), PIXEL_AT_MAXIMUM);
+    EXPECT_EQ(kernel.stateByJoint(rule, {}, 2, 2, 16), PIXEL_CONVERGED) << "no neighbour of that one";
+    EXPECT_EQ(kernel.stateByJoint(rule, {2, 0}, 1, 1, 16), PIXEL_CONVERGED) << "by the floor";
+}
+
+TEST(AdaptiveEstimates, areThoseOfTheSamples)
+{
+    // Samples 0 and 1 in turn in A; 3 in B but for one 11.
+    Kernel kernel = {};
+    FilmPixel film = {};
+    auto add = [&](uint32_t first, std::array<float, 8> samples) {
+        PixelBlock block = {};
+        for (float value : samples) {
+            block.sum = block.sum + vec3(value);
+            block.sumY2 += value * value;
+            block.samplesDone++;
+        }
+        kernel.addBlock(block, first, film);
+    };
+    add(0, {0, 1, 0, 1, 0, 1, 0, 1});
+    add(8, {3, 3, 3, 3, 3, 3, 3, 11});
+    const PixelEstimate apart = kernel.estimateOf(crossed(0.1f, 8, 8), film);
+    EXPECT_NEAR(apart.luminanceA, 0.5, 1e-6);
+    EXPECT_NEAR(apart.varianceA, 2.0 / 7, 1e-6);
+    EXPECT_NEAR(apart.luminanceB, 4, 1e-5);
+    EXPECT_NEAR(apart.varianceB, 8, 1e-4);
+    // Together: mean 2.25, squares 4 + 63 + 121 = 188, variance (188 / 16 - 5.0625) 16 / 15.
+    const PixelEstimate both = kernel.estimateOf({ADAPTIVE_JOINT, 0, 16, 16, 0.1f, 0, 0, 0}, film);
+    EXPECT_NEAR(both.luminanceA, 2.25, 1e-5);
+    EXPECT_NEAR(both.varianceA, (188.0 / 16 - 5.0625) / 15, 1e-5);
+}
+
+TEST(FilmSums, becomeFloatsOf24Bits)
+{
+    Kernel kernel = {};
+    std::mt19937 random(11);
+    EXPECT_EQ(kernel.floatFromFixed(uvec4(0)), 0.0f);
+    for (uint32_t exponent = 127 - 40; exponent < 127 + 63; exponent++) {
+        const float value = std::bit_cast<float>(exponent << 23 | static_cast<uint32_t>(random() & 0x7fffffu));
+        EXPECT_EQ(kernel.floatFromFixed(kernel.fixedFromFloat(value)), value);
+    }
+    EXPECT_EQ(kernel.floatFromFixed(uvec4(1, 0, 0, 0)), 0x1p-64f);
+    EXPECT_EQ(kernel.floatFromFixed(uvec4(0xffffffffu)), std::nextafter(0x1p64f, 0.0f)) << "cut";
+}
+
 TEST(FilmSums, wordsOf32BitsEqualTheHostsFixedPoint)
 {
     Kernel kernel = {};
@@ -219,7 +341,7 @@ TEST(FilmSums, blocksGoToTheHalvesInTurn)
         block.bounces = 7;
         block.badSamples = 1;
         film.add(0, 0, 1, 1, first, {&block, 1});
-        kernel.addBlock(block, pixel.film);
+        kernel.addBlock(block, first, pixel.film);
     }
     Film added(1, 1);
     added.add(0, 0, 1, 1, {&pixel, 1}, true);

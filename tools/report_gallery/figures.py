@@ -171,11 +171,19 @@ FIGURES = [
            "The report's rule stops a pixel once its mean hardly moves, after 20 samples at the least and "
            "1,000 at most. The map shows where the samples went: to the diffuse teapot and to the rims of "
            "the spheres. A rule that looks at the samples it decides about is biased: pixels with rare bright "
-           "samples stop before they have met one.",
+           "samples stop before they have met one. The rule crossed decides about each half of a pixel's "
+           "samples by the other half: it is right on average, and shows its noise instead of hiding it.",
            [render("picture", "fig21/adaptive.json", "-o", "@picture.png", "--map", "samples=@samples.png",
                    "--map-colors", "viridis", "--map-range", "1:1000", "--map-scale", "off",
-                   quick=["--min-spp", "2", "--max-spp", "4"])],
+                   quick=["--min-spp", "2", "--max-spp", "4"]),
+            render("crossed", "fig21/adaptive.json", "--adaptive", "crossed", "--target-error", "0.1",
+                   "--min-spp", "64", "--max-spp", "1008", "-o", "@crossed.png",
+                   "--map", "samples=@crossed-samples.png",
+                   "--map-colors", "viridis", "--map-range", "1:1000", "--map-scale", "off",
+                   quick=["--min-spp", "16", "--max-spp", "32"])],
            [Pane("../fig20/picture.png", "for comparison: figure 20, 20 samples"),
             Pane("picture.png", "adaptive, at most 1,000 samples", "denoised"),
-            Pane("samples.png", "samples of each pixel", "", ("viridis", "1", "1,000"))]),
+            Pane("samples.png", "samples of each pixel", "", ("viridis", "1", "1,000")),
+            Pane("crossed.png", "crossed, at most 1,008 samples, target 10 %", "unbiased"),
+            Pane("crossed-samples.png", "its samples", "", ("viridis", "1", "1,000"))]),
 ]

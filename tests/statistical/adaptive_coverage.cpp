@@ -1,0 +1,94 @@
+// Are stated errors honest? How many pixels lie within 1.96 stated standard errors of the right
+// value.
+
+#include "film/film_error.h"
+#include "statistical/lamp_scene.h"
+#include "support/adaptive_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sahl::testing {
+namespace {
+
+constexpr uint32_t SIZE = 48;
+
+/// A ball on a floor under a sky of a probe.
+Scene skyScene()
+{
+    Scene scene = emptyScene(SIZE, SIZE, 6);
+    scene.settings.seed = 5;
+    addMaterialOf(scene, MATERIAL_LAMBERT, vec3(0.6f));
+    addLevel(scene, 0, 4);
+    addSphere(scene, {0, 0.5f, 0}, 0.5f);
+    scene.probe = addHalves(scene, vec3(0.5f, 0.7f, 1), vec3(0.1f));
+    lookFrom(scene, {0, 1.2, 4}, {0, 0.5, 0}, 40);
+    return scene;
+}
+
+Scene builtIn()
+{
+    Scene scene = builtInScene(smallPicture(SIZE, SIZE, 1));
+    scene.settings.seed = 6;
+    return scene;
+}
+
+/// Share of the pixels of `film` whose luminance is within 1.96 standard errors of the reference's,
+/// both errors counted.
+double coverage(const Film& film, const Film& reference)
+{
+    size_t inside = 0;
+    for (size_t i = 0; i < film.half[0].size(); i++) {
+        const PixelStatistics a = pixelStatistics(film, i), b = pixelStatistics(reference, i);
+        const double allowed = 1.96 * std::sqrt(a.varianceOfMean + b.varianceOfMean);
+        inside += std::abs(a.luminance - b.luminance) <= allowed + 1e-6 * b.luminance ? 1 : 0;
+    }
+    return double(inside) / double(film.half[0].size());
+}
+
+struct Case {
+    const char* name;
+    Scene scene;
+    uint32_t maxSamples;
+    double least;  // coverage that `none` must have
+};
+
+void measure(Case tested, uint32_t referenceSamples)
+{
+    const PreparedScene scene = prepareScene(std::move(tested.scene), BvhBuild::sweep, 2);
+    auto device = makeCpuDevice({});
+    const Film reference = renderFilm(*device, scene, 1u << 20, referenceSamples);
+    auto byNone = [&](uint32_t samples) {
+        return coverage(renderFilm(*device, scene, 0, samples), reference);
+    };
+    auto byRule = [&](const AdaptiveRule& rule) {
+        return coverage(renderAdaptiveFilm(*device, scene, rule).film, reference);
+    };
+    const double none = byNone(tested.maxSamples / 2);
+    const double few = byNone(64);
+    const double crossed = byRule(targetRule(ADAPTIVE_CROSSED, 0.05f, 64, tested.maxSamples));
+    const double joint = byRule(targetRule(ADAPTIVE_JOINT, 0.05f, 64, tested.maxSamples));
+    std::printf(
+        "%-10s none %.1f %% with %u samples, %.1f %% with 64; crossed %.1f %%, joint %.1f %%\n",
+        tested.name, 100 * none, tested.maxSamples / 2, 100 * few, 100 * crossed, 100 * joint);
+    // 2304 pixels: one standard error of the share is 0.45 %. Samples of a pixel that has few are
+    // not normal; rules stop where they are few.
+    EXPECT_GT(none, tested.least);
+    EXPECT_LT(none, 0.975);
+    EXPECT_GT(crossed, few - 0.02);
+}
+
+TEST(LongAdaptiveCoverage, statedErrorsAreHonestWhereSamplesAreManyAndAlike)
+{
+    measure({"sky", skyScene(), 512, 0.93}, 16384);
+    measure({"built-in", builtIn(), 512, 0.90}, 16384);
+}
+
+TEST(LongAdaptiveCoverage, statedErrorsAreTooSmallWhereBrightSamplesAreRare)
+{
+    measure({"lamp", lampScene(SIZE, 7), 1024, 0.80}, 65536);
+}
+
+}  // namespace
+}  // namespace sahl::testing
