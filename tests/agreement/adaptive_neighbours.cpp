@@ -4,6 +4,7 @@
 #include "render/verify.h"
 #include "support/adaptive_scenes.h"
 #include "support/device_test.h"
+#include "support/source_folder.h"
 #include "support/vulkan_hooks.h"
 
 #include <algorithm>
@@ -147,7 +148,7 @@ TEST_P(AdaptiveNeighbours, verifyComparesAllTilesTogether)
 
 TEST_P(AdaptiveNeighbours, windowsOfInstancesHaveTheSameBits)
 {
-    const fs::path path = fs::path(__FILE__).parent_path() / "../scenes/instances.json";
+    const fs::path path = sourceFolder() / "tests/scenes/instances.json";
     SceneOptions options;
     options.width = 32;
     options.height = 24;
@@ -273,7 +274,7 @@ TEST_F(AdaptiveCrossed, samplesOfAHalfAfterAnyPassDependOnThatHalfAlone)
 
 TEST_F(AdaptiveCrossed, reportHasTheSameBitsWithInstancesAndInWindows)
 {
-    const fs::path path = fs::path(__FILE__).parent_path() / "../scenes/instances.json";
+    const fs::path path = sourceFolder() / "tests/scenes/instances.json";
     SceneOptions options;
     options.width = 32;
     options.height = 24;
