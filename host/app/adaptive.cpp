@@ -72,10 +72,10 @@ void addAdaptiveOptions(CLI::App& command, SceneOptions& scene)
         ->type_name("X")
         ->group("Picture");
     addNumber(command, "--min-spp", scene.minSpp, {1, 1 << 24},
-              "adaptive: least samples", "the scene's, else the rule's")
+              "adaptive: least samples", "the scene's or rule's")
         ->group("Picture");
     addNumber(command, "--max-spp", scene.maxSpp, {1, 1 << 24},
-              "adaptive: most samples", "the scene's, else the rule's")
+              "adaptive: most samples", "the scene's or rule's")
         ->group("Picture");
 }
 
@@ -136,12 +136,13 @@ ImageMetadata adaptiveMetadata(const AdaptiveReport& report)
 nlohmann::ordered_json adaptiveJson(const AdaptiveReport& report)
 {
     const AdaptiveRule& rule = report.rule;
+    const bool byEpsilon = rule.rule == ADAPTIVE_REPORT;
     nlohmann::ordered_json json = {{"rule", adaptiveRuleName(rule.rule)}, {"biased", isBiased(rule.rule)}};
-    if (rule.rule == ADAPTIVE_REPORT) {
-        json["epsilon"] = std::stod(shortest(rule.epsilon));
-    } else {
-        json["targetError"] = std::stod(shortest(rule.targetError));
-    }
+    // What says nothing under the rule is null, so that readers find the same keys always.
+    json["epsilon"] = nullptr;
+    json["targetError"] = nullptr;
+    json[byEpsilon ? "epsilon" : "targetError"] =
+        std::stod(shortest(byEpsilon ? rule.epsilon : rule.targetError));
     json["minSamples"] = rule.minSamples;
     json["maxSamples"] = rule.maxSamples;
     json["meanSamples"] = report.meanSamples();
@@ -149,7 +150,8 @@ nlohmann::ordered_json adaptiveJson(const AdaptiveReport& report)
     json["pixelsAtMaximum"] = report.outcome.atMaximum;
     json["convergedShare"] = report.convergedShare();
     json["savedShare"] = report.savedShare();
-    if (rule.rule != ADAPTIVE_REPORT) json["reachedShare"] = report.error.reachedShare;
+    json["reachedShare"] = nullptr;
+    if (!byEpsilon) json["reachedShare"] = report.error.reachedShare;
     json["frameError"] = report.error.ofFrameMean;
     return json;
 }

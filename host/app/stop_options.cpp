@@ -7,7 +7,7 @@ namespace sahl {
 void addStopOptions(CLI::App& command, StopOptions& options)
 {
     addNumber(command, "--passes", options.passes, {1, 1 << 21},
-              "stop after so many passes of 8 samples", "all of them")
+              "stop after so many passes of 8 samples", "all")
         ->group("Picture");
     auto setLimit = [&options](const std::string& text) {
         options.timeLimit = parseReal("--time-limit", text, 0, 1e9);
