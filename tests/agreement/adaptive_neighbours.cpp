@@ -8,13 +8,14 @@
 #include "support/vulkan_hooks.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 namespace sahl::testing {
 namespace {
 
 constexpr uint32_t WIDTH = 24, HEIGHT = 16;
-constexpr uint32_t PILOTS = 32, MOST = 192;
+constexpr uint32_t PILOTS = 32, MOST = 128;
 constexpr float TARGET = 0.1f;
 
 PreparedScene smallScene(uint32_t width = WIDTH, uint32_t height = HEIGHT)
@@ -41,12 +42,10 @@ protected:
 
     const RenderResult& reference() const
     {
-        static const RenderResult results[] = {
-            renderAdaptiveFilm(*makeCpuDevice({}), scene(),
-                               targetRule(ADAPTIVE_CROSSED, TARGET, PILOTS, MOST)),
-            renderAdaptiveFilm(*makeCpuDevice({}), scene(),
-                               targetRule(ADAPTIVE_JOINT, TARGET, PILOTS, MOST))};
-        return results[GetParam() == ADAPTIVE_CROSSED ? 0 : 1];
+        static std::map<uint32_t, RenderResult> results;  // by rule
+        if (!results.contains(GetParam()))
+            results[GetParam()] = renderAdaptiveFilm(*makeCpuDevice({}), scene(), rule());
+        return results.at(GetParam());
     }
 
     void expectSame(Device& device, uint32_t tileSize = 0) const
@@ -85,12 +84,10 @@ TEST_P(AdaptiveNeighbours, hasTheSameBitsOnTheDeviceAndTheReference)
 TEST_P(AdaptiveNeighbours, hasTheSameBitsForEveryTileSizeAndNumberOfThreads)
 {
     expectSameOnDevice({}, 7);
-    for (uint32_t tile : {1u, 5u, 16u, 37u}) expectSame(*makeCpuDevice({}), tile);
-    for (unsigned threads : {1u, 5u}) {
-        DeviceOptions options;
-        options.threads = threads;
-        expectSame(*makeCpuDevice(options));
-    }
+    for (uint32_t tile : {5u, 37u}) expectSame(*makeCpuDevice({}), tile);
+    DeviceOptions options;
+    options.threads = 5;
+    expectSame(*makeCpuDevice(options));
 }
 
 TEST_P(AdaptiveNeighbours, hasTheSameBitsForOtherGroupsBuffersAndArithmetic)
@@ -252,7 +249,7 @@ TEST_F(AdaptiveCrossed, filmIsThatOfTheBlocksOfEachHalf)
         unequal += film.half[0][pixel].samples != film.half[1][pixel].samples ? 1 : 0;
     }
     EXPECT_TRUE(film == expected);
-    EXPECT_GT(unequal, 100u) << "the halves have equal counts: nothing is crossed";
+    EXPECT_GT(unequal, 50u) << "the halves have equal counts: nothing is crossed";
 }
 
 TEST_F(AdaptiveCrossed, samplesOfAHalfAfterAnyPassDependOnThatHalfAlone)

@@ -1,4 +1,5 @@
-// The film is a function of the scene and the sample counts alone: whatever else changes, no bit does.
+// The film is a function of the scene and the sample counts alone: whatever else changes, no bit
+// does.
 
 #include "shared/bindings.h"
 #include "support/device_test.h"
@@ -7,7 +8,7 @@
 namespace sahl::testing {
 namespace {
 
-constexpr uint32_t WIDTH = 96, HEIGHT = 64, SPP = 16;
+constexpr uint32_t WIDTH = 56, HEIGHT = 40, SPP = 16;
 
 class SameBits : public DeviceTest {
 protected:
@@ -110,7 +111,8 @@ TEST_F(SameBits, withExactDivisionAndRoot)
 
 TEST_F(SameBits, forSweepAndBinnedTrees)
 {
-    PreparedScene binned = prepareScene(builtInScene(smallPicture(WIDTH, HEIGHT, SPP)), BvhBuild::binned, 2);
+    PreparedScene binned =
+        prepareScene(builtInScene(smallPicture(WIDTH, HEIGHT, SPP)), BvhBuild::binned, 2);
     Film cpu = renderFilm(*makeCpuDevice({}), binned);
     expectSameLight(cpu, reference());
     EXPECT_TRUE(renderFilm(*openFirstDevice(), binned) == cpu);
@@ -145,7 +147,8 @@ TEST_F(SameBits, withAPartialBlock)
     auto device = openFirstDevice();
     auto cpu = makeCpuDevice({});
     for (uint32_t spp : {1u, 3u, 13u}) {
-        EXPECT_TRUE(renderFilm(*device, scene(), 0, spp) == renderFilm(*cpu, scene(), 0, spp)) << spp;
+        EXPECT_TRUE(renderFilm(*device, scene(), 0, spp) == renderFilm(*cpu, scene(), 0, spp))
+            << spp;
     }
 }
 
@@ -160,8 +163,8 @@ TEST_F(SameBits, whenPathsRunOutOfStepsAndGoOn)
 
 TEST_F(SameBits, whenTheDriverCutsLoops)
 {
-    // lavapipe 22.3 ends every loop after 65,535 iterations of a SIMD group, without a word. With an
-    // unlimited step budget, 4,000 bounces in a closed white box go far beyond that.
+    // lavapipe 22.3 ends every loop after 65,535 iterations of a SIMD group, without a word. With
+    // an unlimited step budget, 4,000 bounces in a closed white box go far beyond that.
     Scene scene = builtInScene(smallPicture(16, 16, 1));
     scene.settings.maxBounces = 4000;
     for (Material& material : scene.materials) material.baseColor = vec3(1);

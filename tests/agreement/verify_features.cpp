@@ -35,16 +35,13 @@ void writeAngularMap(const fs::path& path)
 class VerifyFeatures : public DeviceTest {
 protected:
     /// Compares a device with the reference and says whether the picture shows anything.
-    static void expectEqual(Scene scene, DeviceOptions::Math math = DeviceOptions::Math::native)
+    static void expectEqual(Device& device, Scene scene)
     {
         const RenderSettings settings = scene.settings;
         const PreparedScene prepared = prepareScene(std::move(scene), BvhBuild::automatic, 2);
-        DeviceOptions options;
-        options.math = math;
-        auto device = openFirstDevice(options);
         auto cpu = makeCpuDevice({});
         const VerifyResult result =
-            verifyDevice(*device, *cpu, prepared.deviceScene(), settings.spp, 0, [](double) {});
+            verifyDevice(device, *cpu, prepared.deviceScene(), settings.spp, 0, [](double) {});
         EXPECT_TRUE(result.equal()) << result.differingPixels << " pixels differ";
         EXPECT_EQ(result.differingFilmBits, 0u);
         const Counters& counters = result.deviceFilm.counters;
@@ -54,11 +51,24 @@ protected:
             << "hardly anything was hit";
         EXPECT_EQ(counters.badSamples, 0u);
     }
+
+    static std::unique_ptr<Device> openWith(DeviceOptions::Math math)
+    {
+        DeviceOptions options;
+        options.math = math;
+        return openFirstDevice(options);
+    }
 };
 
-/// Scenes of tests/scenes, one for each feature.
+/// Scenes of tests/scenes, one for each feature. All on one device: compiling its kernels takes
+/// some drivers much longer than rendering.
 class VerifySmallScenes : public VerifyFeatures, public ::testing::WithParamInterface<const char*> {
 protected:
+    static void SetUpTestSuite() { device = openWith(DeviceOptions::Math::native); }
+    static void TearDownTestSuite() { device.reset(); }
+
+    inline static std::unique_ptr<Device> device;
+
     static Scene load()
     {
         const SceneFolder files;
@@ -69,16 +79,19 @@ protected:
     }
 };
 
-class LongVerifySmallScenes : public VerifySmallScenes {};
+class LongVerifySmallScenes : public VerifySmallScenes {
+protected:
+    static void SetUpTestSuite() { device = openWith(DeviceOptions::Math::exact); }
+};
 
 TEST_P(VerifySmallScenes, haveNoDifferingBit)
 {
-    expectEqual(load());
+    expectEqual(*device, load());
 }
 
 TEST_P(LongVerifySmallScenes, haveNoDifferingBitInExactMath)
 {
-    expectEqual(load(), DeviceOptions::Math::exact);
+    expectEqual(*device, load());
 }
 
 constexpr const char* SMALL_SCENES[] = {
@@ -101,14 +114,14 @@ Scene showcase()
 
 TEST_F(VerifyFeatures, showcaseHasNoDifferingBit)
 {
-    expectEqual(showcase());
+    expectEqual(*openWith(DeviceOptions::Math::native), showcase());
 }
 
 class LongVerifyFeatures : public VerifyFeatures {};
 
 TEST_F(LongVerifyFeatures, showcaseHasNoDifferingBitInExactMath)
 {
-    expectEqual(showcase(), DeviceOptions::Math::exact);
+    expectEqual(*openWith(DeviceOptions::Math::exact), showcase());
 }
 
 }  // namespace

@@ -59,7 +59,14 @@ fs::path folderWith(const std::vector<std::string>& meshes)
     return {};
 }
 
-class VerifyReport : public DeviceTest, public ::testing::WithParamInterface<std::string> {};
+/// All on one device: compiling its kernels takes some drivers much longer than rendering.
+class VerifyReport : public DeviceTest, public ::testing::WithParamInterface<std::string> {
+protected:
+    static void SetUpTestSuite() { device = openFirstDevice(); }
+    static void TearDownTestSuite() { device.reset(); }
+
+    inline static std::unique_ptr<Device> device;
+};
 
 TEST_P(VerifyReport, hasNoDifferingBit)
 {
@@ -82,7 +89,6 @@ TEST_P(VerifyReport, hasNoDifferingBit)
     files.write("scene.json", placed);
     const PreparedScene prepared =
         prepareScene(files.load("scene.json", options), BvhBuild::automatic, 2);
-    auto device = openFirstDevice();
     auto cpu = makeCpuDevice({});
     const DeviceScene scene = prepared.deviceScene();
     const VerifyResult result =

@@ -65,9 +65,9 @@ protected:
     VulkanHooks hooks_;
 };
 
-TEST_F(DeviceFaults, outOfMemoryAtEveryThirdCall_isAnErrorAndLeavesNothingBehind)
+TEST_F(DeviceFaults, outOfMemoryAtEverySeventhCall_isAnErrorAndLeavesNothingBehind)
 {
-    EXPECT_GT(failAtCalls(3), 50u / 3);
+    EXPECT_GT(failAtCalls(7), 50u / 7);
 }
 
 using LongDeviceFaults = DeviceFaults;

@@ -34,13 +34,14 @@ function(sahl_find_test_drivers output)
     set(${output} ${drivers} PARENT_SCOPE)
 endfunction()
 
-# sahl_test(name [LONG] SOURCES a.cpp ... LINKS other ...): a GoogleTest program, one ctest entry a
+# sahl_test(name [LONG] [WHOLE Suite ...] SOURCES a.cpp ... LINKS other ...): a GoogleTest program, one ctest entry a
 # test, labelled with the folder of tests/ it is in.
-#   LONG  tests of suites called Long... take minutes: they get the label FOLDER-long
+#   LONG    tests of suites called Long... take minutes: they get the label FOLDER-long
+#   WHOLE   suites whose tests share what is dear to make: one entry a suite, skipped when any test of it is
 function(sahl_test name)
-    cmake_parse_arguments(ARG "LONG" "" "SOURCES;LINKS" ${ARGN})
+    cmake_parse_arguments(ARG "LONG" "" "SOURCES;LINKS;WHOLE" ${ARGN})
     sahl_test_program(${name} "${ARG_SOURCES}" "${ARG_LINKS}")
-    sahl_discover(${name} "${ARG_LONG}" "")
+    sahl_discover(${name} "${ARG_LONG}" "${ARG_WHOLE}" "")
 endfunction()
 
 # sahl_device_test(name ...), arguments as above: needs a Vulkan device, so every test runs once a
@@ -50,7 +51,7 @@ function(sahl_device_test name)
     if(NOT SAHL_WITH_VULKAN)
         return()
     endif()
-    cmake_parse_arguments(ARG "LONG" "" "SOURCES;LINKS" ${ARGN})
+    cmake_parse_arguments(ARG "LONG" "" "SOURCES;LINKS;WHOLE" ${ARGN})
     sahl_test_program(${name} "${ARG_SOURCES};${SAHL_ROOT}/tests/support/driver_leaks.cpp" "${ARG_LINKS}")
     sahl_find_test_drivers(drivers)
     foreach(manifest ${drivers})
@@ -58,10 +59,10 @@ function(sahl_device_test name)
         if(manifest MATCHES "/(swiftshader|lavapipe25)/")
             set(driver ${CMAKE_MATCH_1})
         endif()
-        sahl_discover(${name} "${ARG_LONG}" "${driver}." ENVIRONMENT VK_DRIVER_FILES=${manifest})
+        sahl_discover(${name} "${ARG_LONG}" "${ARG_WHOLE}" "${driver}." ENVIRONMENT VK_DRIVER_FILES=${manifest})
     endforeach()
     if(NOT drivers)
-        sahl_discover(${name} "${ARG_LONG}" "")
+        sahl_discover(${name} "${ARG_LONG}" "${ARG_WHOLE}" "")
     endif()
 endfunction()
 
@@ -82,13 +83,24 @@ function(sahl_add_to_folder name)
     add_dependencies(tests_${folder} ${name})
 endfunction()
 
-function(sahl_discover name long prefix)
+function(sahl_discover name long whole prefix)
     get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
-    set(filter)
+    set(others)
+    foreach(suite ${whole})
+        list(APPEND others "${suite}.*")
+        add_test(NAME ${prefix}${suite} COMMAND ${name} --gtest_filter=${suite}.*)
+        set_tests_properties(${prefix}${suite} PROPERTIES TIMEOUT 900 LABELS ${folder}
+            SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]" ${ARGN})
+    endforeach()
     if(long)
         gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_PREFIX "${prefix}" TEST_FILTER "Long*"
             TEST_LIST ${name}_${prefix}long PROPERTIES TIMEOUT 3600 LABELS ${folder}-long ${ARGN})
-        set(filter TEST_FILTER "-Long*")
+        list(APPEND others "Long*")
+    endif()
+    set(filter)
+    if(others)
+        list(JOIN others ":" others)
+        set(filter TEST_FILTER "-${others}")
     endif()
     gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_PREFIX "${prefix}" ${filter}
         TEST_LIST ${name}_${prefix}tests PROPERTIES TIMEOUT 900 LABELS ${folder} ${ARGN})
