@@ -59,23 +59,31 @@ fs::path folderWith(const std::vector<std::string>& meshes)
     return {};
 }
 
+/// Those that name a mesh that is not in the repository, or those that name none.
+std::vector<std::string> scenesThatNeedMeshes(bool theyDo)
+{
+    std::vector<std::string> scenes = reportScenes();
+    std::erase_if(scenes, [&](const std::string& scene) {
+        return meshesOf(textOf(sourceFolder() / "scenes/report" / scene)).empty() == theyDo;
+    });
+    return scenes;
+}
+
 /// All on one device: compiling its kernels takes some drivers much longer than rendering.
 class VerifyReport : public DeviceTest, public ::testing::WithParamInterface<std::string> {
 protected:
     static void SetUpTestSuite() { device = openFirstDevice(); }
     static void TearDownTestSuite() { device.reset(); }
 
+    static void expectNoDifferingBit(const std::string& text, const fs::path& meshes);
+
     inline static std::unique_ptr<Device> device;
 };
 
-TEST_P(VerifyReport, hasNoDifferingBit)
+void VerifyReport::expectNoDifferingBit(const std::string& text, const fs::path& meshes)
 {
-    const std::string text = textOf(sourceFolder() / "scenes/report" / GetParam());
     SceneOptions options;
     options.width = options.height = 32;
-    const fs::path meshes = folderWith(meshesOf(text));
-    if (meshes.empty()) GTEST_SKIP() << GetParam() << " needs " << meshesOf(text).front();
-
     const SceneFolder files;
     std::string placed = text;
     for (size_t at; (at = placed.find(FETCHED)) != std::string::npos;) {
@@ -103,14 +111,32 @@ TEST_P(VerifyReport, hasNoDifferingBit)
     EXPECT_GT(counters.bounces, counters.cameraRays / 20) << "hardly anything was hit";
 }
 
-INSTANTIATE_TEST_SUITE_P(, VerifyReport, ::testing::ValuesIn(reportScenes()),
-                         [](const auto& tested) {
-                             std::string name = tested.param.substr(0, tested.param.rfind('.'));
-                             std::replace_if(
-                                 name.begin(), name.end(),
-                                 [](char c) { return c == '/' || c == '-'; }, '_');
-                             return name;
-                         });
+TEST_P(VerifyReport, hasNoDifferingBit)
+{
+    expectNoDifferingBit(textOf(sourceFolder() / "scenes/report" / GetParam()), sourceFolder());
+}
+
+class VerifyReportMeshes : public VerifyReport {};
+
+TEST_P(VerifyReportMeshes, hasNoDifferingBit)
+{
+    const std::string text = textOf(sourceFolder() / "scenes/report" / GetParam());
+    const fs::path meshes = folderWith(meshesOf(text));
+    if (meshes.empty()) GTEST_SKIP() << GetParam() << " needs " << meshesOf(text).front();
+    expectNoDifferingBit(text, meshes);
+}
+
+const auto nameOfScene = [](const auto& tested) {
+    std::string name = tested.param.substr(0, tested.param.rfind('.'));
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == '/' || c == '-'; }, '_');
+    return name;
+};
+
+INSTANTIATE_TEST_SUITE_P(, VerifyReport, ::testing::ValuesIn(scenesThatNeedMeshes(false)),
+                         nameOfScene);
+INSTANTIATE_TEST_SUITE_P(, VerifyReportMeshes, ::testing::ValuesIn(scenesThatNeedMeshes(true)),
+                         nameOfScene);
 
 }  // namespace
 }  // namespace sahl::testing

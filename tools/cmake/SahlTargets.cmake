@@ -41,7 +41,7 @@ endfunction()
 # sahl_test(name [LONG] [WHOLE Suite ...] SOURCES a.cpp ... LINKS other ...): a GoogleTest program, one ctest entry a
 # test, labelled with the folder of tests/ it is in.
 #   LONG    tests of suites called Long... take minutes: they get the label FOLDER-long
-#   WHOLE   suites whose tests share what is dear to make: one entry a suite, skipped when any test of it is
+#   WHOLE   suites whose tests share what is dear to make: one entry a suite; none of them may be skipped
 function(sahl_test name)
     cmake_parse_arguments(ARG "LONG" "" "SOURCES;LINKS;WHOLE" ${ARGN})
     sahl_test_program(${name} "${ARG_SOURCES}" "${ARG_LINKS}")
@@ -99,7 +99,7 @@ function(sahl_discover name long whole slow prefix)
         list(APPEND others "${suite}.*")
         add_test(NAME ${prefix}${suite} COMMAND ${name} --gtest_filter=${suite}.*)
         set_tests_properties(${prefix}${suite} PROPERTIES TIMEOUT 900 LABELS ${folder}
-            SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]" ${ARGN})
+            FAIL_REGULAR_EXPRESSION "\\[  SKIPPED \\]" ${ARGN})
     endforeach()
     set(taking_long ${slow})
     if(long)
