@@ -1,5 +1,5 @@
-// What rules of adaptive sampling do to a picture whose light is found seldom: `report` and `joint` lose some
-// of it, `crossed` does not.
+// What rules of adaptive sampling do to a picture whose light is found seldom: `report` and `joint`
+// lose some of it, `crossed` does not.
 
 #include "film/film_error.h"
 #include "statistical/lamp_scene.h"
@@ -29,7 +29,7 @@ Estimate meanOver(uint32_t size, const AdaptiveRule& rule, uint32_t seeds)
     double sum = 0, sum2 = 0, samples = 0;
     auto device = makeCpuDevice({});
     for (uint32_t seed = 1; seed <= seeds; seed++) {
-        PreparedScene scene = prepareScene(lampScene(size, seed), BvhBuild::sweep, 2);
+        PreparedScene scene = prepareScene(lampScene(size, size, seed), BvhBuild::sweep, 2);
         Film film = renderAdaptiveFilm(*device, scene, rule).film;
         double mean = frameMean(film);
         sum += mean;
@@ -45,7 +45,7 @@ Estimate meanOver(uint32_t size, const AdaptiveRule& rule, uint32_t seeds)
 double expectBias(uint32_t size, const AdaptiveRule& rule, uint32_t seeds,
                   uint32_t referenceSamples)
 {
-    PreparedScene scene = prepareScene(lampScene(size, 0), BvhBuild::sweep, 2);
+    PreparedScene scene = prepareScene(lampScene(size, size, 0), BvhBuild::sweep, 2);
     double reference = frameMean(renderFilm(*makeCpuDevice({}), scene, 0, referenceSamples));
     Estimate biased = meanOver(size, rule, seeds);
     auto same = static_cast<uint32_t>(biased.samplesPerPixel);
@@ -74,9 +74,10 @@ TEST(LongAdaptiveBias, lampFoundByChanceLosesLightWithTheReportsNumbers)
 }
 
 /// Frame means by the three rules against a long reference.
-void expectOnlyCrossedIsRight(uint32_t size, uint32_t seeds, uint32_t referenceSamples, double mostBias)
+void expectOnlyCrossedIsRight(uint32_t size, uint32_t seeds, uint32_t referenceSamples,
+                              double mostBias)
 {
-    PreparedScene scene = prepareScene(lampScene(size, 0), BvhBuild::sweep, 2);
+    PreparedScene scene = prepareScene(lampScene(size, size, 0), BvhBuild::sweep, 2);
     const Film film = renderFilm(*makeCpuDevice({}), scene, 0, referenceSamples);
     const double reference = frameMean(film);
     const double ofReference = filmError(film, 1).ofFrameMean;
@@ -85,11 +86,12 @@ void expectOnlyCrossedIsRight(uint32_t size, uint32_t seeds, uint32_t referenceS
         const Estimate estimate = meanOver(size, rule, seeds);
         const double error = std::hypot(estimate.standardError / reference, ofReference);
         const double bias = estimate.mean / reference - 1;
-        std::printf("%-8s %7.3f %% +- %.3f %%, %.1f samples per pixel\n", name, 100 * bias, 100 * error,
-                    estimate.samplesPerPixel);
+        std::printf("%-8s %7.3f %% +- %.3f %%, %.1f samples per pixel\n", name, 100 * bias,
+                    100 * error, estimate.samplesPerPixel);
         return std::pair{bias, error};
     };
-    const auto [crossed, ofCrossed] = measure("crossed", targetRule(ADAPTIVE_CROSSED, 0.3f, 32, 512));
+    const auto [crossed, ofCrossed] =
+        measure("crossed", targetRule(ADAPTIVE_CROSSED, 0.3f, 32, 512));
     const auto [joint, ofJoint] = measure("joint", targetRule(ADAPTIVE_JOINT, 0.3f, 32, 512));
     const auto [report, ofReport] = measure("report", reportRule(1e-4f, 32, 512));
     EXPECT_LT(std::abs(crossed), 4 * ofCrossed);

@@ -87,7 +87,7 @@ TEST(LongAdaptiveCoverage, statedErrorsAreHonestWhereSamplesAreManyAndAlike)
 
 TEST(LongAdaptiveCoverage, statedErrorsAreTooSmallWhereBrightSamplesAreRare)
 {
-    measure({"lamp", lampScene(SIZE, 7), 1024, 0.80}, 65536);
+    measure({"lamp", lampScene(SIZE, SIZE, 7), 1024, 0.80}, 65536);
 }
 
 }  // namespace

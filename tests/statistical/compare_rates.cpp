@@ -4,6 +4,7 @@
 #include "compare/distributions.h"
 #include "compare/noise.h"
 #include "film/layers.h"
+#include "statistical/lamp_scene.h"
 #include "support/noisy_pictures.h"
 #include "support/render_scenes.h"
 #include "support/small_scenes.h"
@@ -178,19 +179,9 @@ Scene clayScene(uint32_t seed)
     return scene;
 }
 
-/// A glass ball on clay under a small bright lamp that paths meet by chance.
-Scene lampScene(uint32_t seed)
+Scene smallLamp(uint32_t seed)
 {
-    Scene scene = emptyScene(24, 16, 6);
-    scene.settings.seed = seed;
-    addMaterialOf(scene, MATERIAL_LAMBERT, vec3(0.7f));
-    addLevel(scene, 0, 4);
-    addMaterialOf(scene, MATERIAL_DIELECTRIC, vec3(1), 1.5f);
-    addSphere(scene, {0, 0.5f, 0}, 0.5f);
-    addMaterialOf(scene, MATERIAL_LAMBERT, vec3(0)).emission = vec3(60);
-    addLevel(scene, 3, 0.25, false);
-    lookFrom(scene, {0, 1.2, 4}, {0, 0.5, 0}, 40);
-    return scene;
+    return lampScene(24, 16, seed);
 }
 
 LoadedPicture rendered(Device& device, Scene scene, uint32_t spp)
@@ -217,8 +208,8 @@ TEST(CompareRates, twoHundredPairsOfEqualScenes_giveNoMoreFalseAlarmsThanStated)
     };
     for (const Case& c : {Case{"clay, 8 and 8 spp", clayScene, 8, 8},
                           {"clay, 2 and 32 spp", clayScene, 2, 32},
-                          {"lamp, 16 and 16 spp", lampScene, 16, 16},
-                          {"lamp, 4 and 64 spp", lampScene, 4, 64}}) {
+                          {"lamp, 16 and 16 spp", smallLamp, 16, 16},
+                          {"lamp, 4 and 64 spp", smallLamp, 4, 64}}) {
         int atFive = 0, atOne = 0, verdicts = 0;
         for (uint32_t i = 0; i < PAIRS; i++) {
             const LoadedPicture a = rendered(*device, c.scene(2 * i), c.sppA);

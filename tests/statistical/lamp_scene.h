@@ -7,9 +7,9 @@ namespace sahl::testing {
 
 /// A floor and a glass ball under a small bright lamp that paths meet by chance: for most pixels
 /// about one sample in a hundred is bright, all others are black.
-inline Scene lampScene(uint32_t size, uint32_t seed)
+inline Scene lampScene(uint32_t width, uint32_t height, uint32_t seed)
 {
-    Scene scene = emptyScene(size, size, 6);
+    Scene scene = emptyScene(width, height, 6);
     scene.settings.seed = seed;
     addMaterialOf(scene, MATERIAL_LAMBERT, vec3(0.7f));
     addLevel(scene, 0, 4);
