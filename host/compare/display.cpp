@@ -1,14 +1,11 @@
 #include "compare/display.h"
 
+#include "image/tone_map.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace sahl {
-
-double srgbFromLinear(double linear)
-{
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
 
 double linearFromSrgb(double srgb)
 {

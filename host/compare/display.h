@@ -6,8 +6,7 @@
 
 namespace sahl {
 
-/// The sRGB curve (IEC 61966-2-1) and its inverse, of values in [0,1].
-double srgbFromLinear(double linear);
+/// The inverse of srgbFromLinear() in image/tone_map.h.
 double linearFromSrgb(double srgb);
 
 /// Times 2^stops, clipped to [0,1]; still linear. What is not finite becomes 0.

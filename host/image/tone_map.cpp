@@ -6,18 +6,16 @@
 
 namespace sahl {
 
-namespace {
-
-/// Linear [0,1] to sRGB [0,1]. IEC 61966-2-1.
-double encodeSrgb(double linear)
+double srgbFromLinear(double linear)
 {
-    if (linear <= 0.0031308) return 12.92 * linear;
-    return 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
+
+namespace {
 
 double encode(double value, double gamma)
 {
-    if (gamma == SRGB_GAMMA) return encodeSrgb(value);
+    if (gamma == SRGB_GAMMA) return srgbFromLinear(value);
     return gamma == 1 ? value : std::pow(value, 1 / gamma);
 }
 
