@@ -78,6 +78,9 @@ void printVerdict(const Scene& scene, const Device& device, const Device& refere
 int runVerify(VerifyOptions& options)
 {
     setQuiet(options.common.quiet);
+    if (options.allDevices && options.common.device != "auto") {
+        throw usageError("--device names one device, --all-devices takes every one; leave one out");
+    }
     if (options.allDevices && !options.differencePath.empty()) {
         throw usageError("--difference is for one device; name it with --device instead of "
                          "--all-devices");

@@ -175,8 +175,9 @@ TEST_F(DeviceProgram, verifyOfAllDevicesAsJson_hasAnEntryForEveryDevice)
     EXPECT_EQ(json["devices"][0]["counters"]["cameraRays"], 16 * 12 * 4);
 }
 
-TEST_F(DeviceProgram, verifyOfAllDevicesWithADifferencePicture_isAnErrorOfUsage)
+TEST_F(DeviceProgram, verifyOfAllDevicesWithOptionsForOne_isAnErrorOfUsage)
 {
+    expectRefused(sahl({"verify", "--all-devices", "--device", "0"}), 2, "--device names one");
     expectRefused(sahl({"verify", "--all-devices", "--difference", "d.exr"}), 2, "--difference");
 }
 
