@@ -122,7 +122,10 @@ TEST_P(VerifyReportMeshes, hasNoDifferingBit)
 {
     const std::string text = textOf(sourceFolder() / "scenes/report" / GetParam());
     const fs::path meshes = folderWith(meshesOf(text));
-    if (meshes.empty()) GTEST_SKIP() << GetParam() << " needs " << meshesOf(text).front();
+    if (meshes.empty())
+        GTEST_SKIP() << GetParam() << " needs " << meshesOf(text).front()
+                     << ", which may not be copied into this repository (set SAHL_ASSETS, or "
+                        "tools/fetch_assets)";
     expectNoDifferingBit(text, meshes);
 }
 
