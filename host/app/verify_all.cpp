@@ -51,14 +51,22 @@ LoadedPicture independentPicture(Device& reference, const PreparedScene& prepare
     return pictureOf(renderPicture(reference, plan, [](const RenderProgress&) {}).film);
 }
 
+/// What every device is compared with.
+struct Reference {
+    std::unique_ptr<Device> device;
+    std::optional<LoadedPicture> independent = {};  ///< made for the first device that differs
+};
+
 /// Do wrong bits make a wrong picture?
-Statistics testAgainstNoise(const Film& film, Device& reference, const PreparedScene& prepared,
+Statistics testAgainstNoise(const Film& film, Reference& reference, const PreparedScene& prepared,
                             const VerifyOptions& options)
 {
+    if (!reference.independent) {
+        reference.independent = independentPicture(*reference.device, prepared);
+    }
     CompareOptions compareOptions;
     compareOptions.threads = threadsFor(options.common);
-    return testDifferences(pictureOf(film), independentPicture(reference, prepared),
-                           compareOptions);
+    return testDifferences(pictureOf(film), *reference.independent, compareOptions);
 }
 
 std::string noiseText(const Statistics& statistics)
@@ -86,11 +94,11 @@ std::string verdictText(const VerifyResult& result)
     return text;
 }
 
-void compareWith(Device& reference, const PreparedScene& prepared, const VerifyOptions& options,
+void compareWith(Reference& reference, const PreparedScene& prepared, const VerifyOptions& options,
                  Row& row)
 {
     auto device = makeVulkanDevice(row.info.index, options.common.deviceOptions);
-    const VerifyResult result = verifyWithProgress(*device, reference, prepared, options);
+    const VerifyResult result = verifyWithProgress(*device, *reference.device, prepared, options);
     row.equal = result.equal();
     row.interrupted = result.interrupted;
     row.verdict = verdictText(result);
@@ -119,7 +127,7 @@ void addFailure(Row& row, ErrorKind kind, const std::string& message)
 }
 
 /// A device that is missing something or is lost does not keep the others from being compared.
-Row verifyOne(const VulkanDeviceInfo& info, Device& reference, const PreparedScene& prepared,
+Row verifyOne(const VulkanDeviceInfo& info, Reference& reference, const PreparedScene& prepared,
               const VerifyOptions& options)
 {
     Row row = {info};
@@ -184,11 +192,11 @@ int verifyAllDevices(const VerifyOptions& options, const PreparedScene& prepared
                         ? "no Vulkan device to verify: " + whyNone
                         : "none of the Vulkan devices can be used: " + devices.front().unusable);
     }
-    auto reference = makeCpuDevice(options.common.deviceOptions);
+    Reference reference = {makeCpuDevice(options.common.deviceOptions)};
     std::vector<Row> rows;
     for (const VulkanDeviceInfo& device : devices) {
         if (!options.common.quiet && !options.json) say("device: {}\n", device.name);
-        rows.push_back(verifyOne(device, *reference, prepared, options));
+        rows.push_back(verifyOne(device, reference, prepared, options));
         if (rows.back().interrupted) {
             say("sahl: interrupted; nothing is decided\n");
             return interruptedExitCode();
@@ -197,7 +205,7 @@ int verifyAllDevices(const VerifyOptions& options, const PreparedScene& prepared
 
     const int exitCode = exitCodeOf(rows);
     if (options.json) {
-        const DeviceInfo cpu = reference->info();
+        const DeviceInfo cpu = reference.device->info();
         auto list = nlohmann::ordered_json::array();
         for (const Row& row : rows) list.push_back(row.json);
         const nlohmann::ordered_json json = {
@@ -208,7 +216,7 @@ int verifyAllDevices(const VerifyOptions& options, const PreparedScene& prepared
             {"equal", exitCode == 0}};
         answer("{}\n", json.dump(2));
     } else if (!options.common.quiet || exitCode != 0) {
-        printTable(prepared, *reference, rows);
+        printTable(prepared, *reference.device, rows);
     }
     return exitCode;
 }
