@@ -178,7 +178,7 @@ nlohmann::ordered_json describeForTree(const PreparedScene& prepared, const Devi
             materialJson(scene.materials[i], prepared.scene.materialNames[i]));
     }
     json["lights"] = Json::array();
-    for (const Light& light : scene.lights) json["lights"].push_back(lightJson(light));
+    for (const Light& light : prepared.sceneLights()) json["lights"].push_back(lightJson(light));
     json["objectStarts"] = prepared.scene.objectStarts;
     return json;
 }
