@@ -93,7 +93,7 @@ Json statisticsJson(const PreparedScene& prepared, const Film& film, Device& dev
           {"instances", arrays.instances.size()},
           {"droppedTriangles", scene.droppedTriangles},
           {"materials", arrays.materials.size()},
-          {"lights", arrays.lights.size()},
+          {"lights", arrays.frame.lightCount},
           {"width", scene.settings.width},
           {"height", scene.settings.height},
           {"maxBounces", scene.settings.maxBounces},

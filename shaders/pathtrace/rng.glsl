@@ -31,9 +31,15 @@ uvec4 hash4(uint a, uint b, uint c, uint d)
 /// A number in [0, 1) from the upper 24 bits: exact in float on every device.
 float unitFloat(uint bits) { return float(bits >> 8u) * 5.96046448e-08f; }
 
+/// 32 uniform bits for each of four dimensions: numbers in [0, 1) as binary fractions.
+uvec4 randomBits4(uint pixel, uint sampleIndex, uint dimension)
+{
+    return hash4(pixel, sampleIndex, dimension, frame.seed);
+}
+
 /// Four independent uniform numbers in [0, 1).
 vec4 random4(uint pixel, uint sampleIndex, uint dimension)
 {
-    uvec4 bits = hash4(pixel, sampleIndex, dimension, frame.seed);
+    uvec4 bits = randomBits4(pixel, sampleIndex, dimension);
     return vec4(unitFloat(bits.x), unitFloat(bits.y), unitFloat(bits.z), unitFloat(bits.w));
 }
