@@ -50,6 +50,7 @@ public:
     void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override;
     std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,
                                                    const AdaptiveRule& rule) override;
+    uint32_t samplerKind() const override { return samplerKind_; }
     uint32_t maxTilePixels() const override { return tilePixelLimit(context_->physical, group_); }
     uint64_t maxAdaptivePixels() const override { return adaptivePixelLimit(context_->physical); }
     DeviceStatistics statistics() const override { return statistics_; }
@@ -79,6 +80,7 @@ private:
     bool pipelineInstances_ = false;
     uint32_t pipelineStack_ = 0;  // 0: no pipeline yet
     std::unique_ptr<VulkanScene> scene_;
+    uint32_t samplerKind_ = SAMPLER_INDEPENDENT;
     Buffer pixels_, suspended_;   // as large as the largest tile so far
     Buffer firstHits_;
     bool bound_ = false;           // pipeline_'s descriptor set holds the buffers above
@@ -112,6 +114,7 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     statistics_.uploadSeconds += secondsSince(start);
     preparePipeline(uploaded->texel, !scene.instances.empty(), stackSize);
     scene_ = std::move(uploaded);
+    samplerKind_ = scene.frame.samplerKind;
     statistics_.sceneBytes = scene_->bytes;
     statistics_.texelBuffers = scene_->texel;
 }

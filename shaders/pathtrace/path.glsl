@@ -68,7 +68,9 @@ bool sampleDirectLight(Material material, SurfaceInteraction isect, uint dimensi
 }
 
 /// Chooses the path's next direction and returns the lobe; LOBE_NONE when the path ends.
-uint sampleNextRay(Material material, SurfaceInteraction isect, vec4 u, INOUT(PathState) path)
+///   dimension  of the vertex
+///   u          its numbers for the BSDF
+uint sampleNextRay(Material material, SurfaceInteraction isect, uint dimension, vec4 u, INOUT(PathState) path)
 {
     BsdfSample bs = sampleBsdf(material, isect, path.dir, path.mediumEta, u);
     path.beta = flushed3(path.beta * bs.weight);
@@ -78,6 +80,7 @@ uint sampleNextRay(Material material, SurfaceInteraction isect, vec4 u, INOUT(Pa
     path.mediumEta = bs.mediumEta;
     path.pdf = bs.pdf;
     path.etaScale = path.etaScale * bs.etaScale;
+    if (!survivesRoulette(dimension, path)) return LOBE_NONE;
     tally.indirectRays++;
     return bs.lobe;
 }
@@ -86,7 +89,7 @@ uint sampleNextRay(Material material, SurfaceInteraction isect, vec4 u, INOUT(Pa
 void seeEnvironment(INOUT(PathState) path)
 {
     vec3 Le = path.depth == 0u ? evalProbe(frame.background, path.dir) : evalProbe(frame.probe, path.dir);
-    path.L = path.L + path.beta * Le;
+    gather(path.beta * Le, path.depth, path);
     path.phase = PHASE_ENDED;
 }
 
@@ -94,14 +97,14 @@ void seeEnvironment(INOUT(PathState) path)
 uint shadeSurface(SurfaceInteraction isect, Material material, INOUT(PathState) path)
 {
     tally.bounces++;
-    path.L = path.L + path.beta * material.emission;
+    gather(path.beta * material.emission, path.depth, path);
     path.phase = PHASE_ENDED;
     if (path.depth >= frame.maxBounces) return LOBE_NONE;
 
     uint dimension = DIMENSION_FIRST_VERTEX + DIMENSIONS_PER_VERTEX * path.depth;
     vec4 u = random4(path.pixel, path.sampleIndex, dimension);
     bool lit = sampleDirectLight(material, isect, dimension, path);
-    uint lobe = sampleNextRay(material, isect, u, path);
+    uint lobe = sampleNextRay(material, isect, dimension, u, path);
     path.depth++;
     if (lit) {
         path.phase = lobe != LOBE_NONE ? PHASE_SHADOW : PHASE_LAST_SHADOW;
@@ -139,8 +142,9 @@ void finishShadow(Traversal hit, INOUT(PathState) path)
 {
     uint blocked = hit.slot != NO_HIT ? 1u : 0u;
     path.digest += digestOf(blocked, 0u, path.depth, DIGEST_SHADOW);
-    if (blocked == 0u) path.L = path.L + path.Ld;
-    if (frame.integrator == INTEGRATOR_PHONG) {
+    bool phong = frame.integrator == INTEGRATOR_PHONG;
+    if (blocked == 0u) gather(path.Ld, phong ? 1u : path.depth, path);
+    if (phong) {
         passLight(path);
     } else {
         path.phase = path.phase == PHASE_SHADOW ? PHASE_EXTEND : PHASE_ENDED;
