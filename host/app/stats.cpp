@@ -64,7 +64,8 @@ Json countersJson(const Counters& counters)
     return {{"cameraRays", counters.cameraRays},         {"indirectRays", counters.indirectRays},
             {"shadowRays", counters.shadowRays},         {"boxTests", counters.boxTests},
             {"primitiveTests", counters.primitiveTests}, {"bounces", counters.bounces},
-            {"badSamples", counters.badSamples}};
+            {"badSamples", counters.badSamples},
+            {"clamped", counters.clamped}};
 }
 
 Json treeJson(const BvhStatistics& tree)

@@ -70,7 +70,9 @@ bool sampleDirectLight(Material material, SurfaceInteraction isect, uint dimensi
 }
 
 /// Chooses the path's next direction and returns the lobe; LOBE_NONE when the path ends.
-uint sampleNextRay(Material material, SurfaceInteraction isect, vec4 u, INOUT(PathState) path)
+///   dimension  of the vertex
+///   u          its numbers for the BSDF
+uint sampleNextRay(Material material, SurfaceInteraction isect, uint dimension, vec4 u, INOUT(PathState) path)
 {
     BsdfSample bs = sampleBsdf(material, isect, path.dir, path.mediumEta, u);
     path.beta = flushed3(path.beta * bs.weight);
@@ -80,6 +82,7 @@ uint sampleNextRay(Material material, SurfaceInteraction isect, vec4 u, INOUT(Pa
     path.mediumEta = bs.mediumEta;
     path.pdf = bs.pdf;
     path.etaScale = path.etaScale * bs.etaScale;
+    if (!survivesRoulette(dimension, path)) return LOBE_NONE;
     tally.indirectRays++;
     return bs.lobe;
 }
@@ -88,12 +91,12 @@ uint sampleNextRay(Material material, SurfaceInteraction isect, vec4 u, INOUT(Pa
 void seeEnvironment(INOUT(PathState) path)
 {
     if (path.depth == 0u) {
-        path.L = path.L + path.beta * evalProbe(frame.background, path.dir);
+        gather(path.beta * evalProbe(frame.background, path.dir), path.depth, path);
     } else {
         vec3 d = toProbe(frame.probe, path.dir);
         vec4 texel = lookUpProbe(frame.probe, d);
         float weight = weightOfScattering(path.pdf, pdfProbe(d, texel.w));
-        path.L = path.L + path.beta * vec3(texel) * weight;
+        gather(path.beta * vec3(texel) * weight, path.depth, path);
     }
     path.phase = PHASE_ENDED;
 }
@@ -107,7 +110,7 @@ void seeEmission(SurfaceInteraction isect, Material material, Traversal hit, INO
         float pdfLight = pdfShapeLight(hit, isect, material.emission, path.org, path.dir);
         weight = weightOfScattering(path.pdf, pdfLight);
     }
-    path.L = path.L + path.beta * material.emission * weight;
+    gather(path.beta * material.emission * weight, path.depth, path);
 }
 
 /// What happens at a surface: its emission, a shadow ray, the next ray. Returns the lobe sampled.
@@ -121,7 +124,7 @@ uint shadeSurface(SurfaceInteraction isect, Material material, Traversal hit, IN
     uint dimension = DIMENSION_FIRST_VERTEX + DIMENSIONS_PER_VERTEX * path.depth;
     vec4 u = random4(path.pixel, path.sampleIndex, dimension);
     bool lit = sampleDirectLight(material, isect, dimension, u.z, path);
-    uint lobe = sampleNextRay(material, isect, u, path);
+    uint lobe = sampleNextRay(material, isect, dimension, u, path);
     path.depth++;
     if (lit) {
         path.phase = lobe != LOBE_NONE ? PHASE_SHADOW : PHASE_LAST_SHADOW;
@@ -142,7 +145,8 @@ void shadePath(Traversal hit, INOUT(PathState) path)
         seeEnvironment(path);
     } else {
         SurfaceInteraction isect = interactionAt(hit, path.org, path.dir);
-        Material material = loadMaterial(isect.material);
+        Material material = texturedMaterial(loadMaterial(isect.material), isect.u, isect.v);
+        isect = bumpedInteraction(material, hit, isect);
         if (frame.integrator == INTEGRATOR_PHONG) {
             shadePhong(isect, material, hit, path);
         } else {
@@ -159,8 +163,9 @@ void finishShadow(Traversal hit, INOUT(PathState) path)
 {
     uint blocked = hit.slot != NO_HIT ? 1u : 0u;
     path.digest += digestOf(blocked, 0u, path.depth, DIGEST_SHADOW);
-    if (blocked == 0u) path.L = path.L + path.Ld;
-    if (frame.integrator == INTEGRATOR_PHONG) {
+    bool phong = frame.integrator == INTEGRATOR_PHONG;
+    if (blocked == 0u) gather(path.Ld, phong ? 1u : path.depth, path);
+    if (phong) {
         passLight(path);
     } else {
         path.phase = path.phase == PHASE_SHADOW ? PHASE_EXTEND : PHASE_ENDED;

@@ -1,5 +1,5 @@
 // The path tracer, in the order in which a path meets its parts. The includer provides the buffers
-// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, TRAVERSAL_ORDER, EXACT_MATH and the macros OUT and INOUT.
+// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, TRAVERSAL_ORDER, EXACT_MATH, HAS_... and the macros OUT and INOUT.
 
 // Invocation-wide state.
 struct Tally
@@ -9,6 +9,7 @@ struct Tally
     uint boxTests;
     uint primitiveTests;
     uint bounces;
+    uint clamped;
 };
 
 Tally tally;             // work counted for the current sample
@@ -20,14 +21,17 @@ CONST float RAY_INFINITY = 3.0e38f;
 
 #include "pathtrace/exact.glsl"
 #include "pathtrace/math.glsl"
+#include "pathtrace/sobol.glsl"
 #include "pathtrace/rng.glsl"
 #include "pathtrace/sampling.glsl"
 #include "pathtrace/camera.glsl"
 #include "pathtrace/triangle.glsl"
 #include "pathtrace/sphere.glsl"
+#include "pathtrace/texture.glsl"
 #include "pathtrace/instance.glsl"
 #include "pathtrace/traverse.glsl"
 #include "pathtrace/interaction.glsl"
+#include "pathtrace/normal_map.glsl"
 #include "pathtrace/fresnel.glsl"
 #include "pathtrace/bsdf.glsl"
 #include "pathtrace/probe.glsl"
@@ -36,6 +40,8 @@ CONST float RAY_INFINITY = 3.0e38f;
 #include "pathtrace/shape_lights.glsl"
 #include "pathtrace/light.glsl"
 #include "pathtrace/phong.glsl"
+#include "pathtrace/roulette.glsl"
+#include "pathtrace/gather.glsl"
 #include "pathtrace/path.glsl"
 #include "pathtrace/film.glsl"
 #include "pathtrace/first_hits.glsl"
