@@ -44,6 +44,19 @@ void addSamplingOptions(CLI::App& command, SceneOptions& scene)
                         "the scene's, else off"))
         ->type_name("X")
         ->group("Picture");
+    auto setLights = [&scene](const std::string& text) {
+        scene.lightSampling = static_cast<uint32_t>(
+            parseChoice("--light-sampling", text, {LIGHT_SAMPLINGS.begin(), LIGHT_SAMPLINGS.end()}));
+    };
+    command
+        .add_option_function<std::string>(
+            "--light-sampling", setLights,
+            withDefault("how paths find shapes that shine and the environment: mis\n"
+                        "(both ways), lights (shadow rays alone) or bsdf (scattered\n"
+                        "rays alone); changes no mean (docs/lights.md)",
+                        "the scene's, else mis"))
+        ->type_name("WAY")
+        ->group("Picture");
 }
 
 ImageMetadata describeSampling(const RenderSettings& settings)
@@ -52,6 +65,7 @@ ImageMetadata describeSampling(const RenderSettings& settings)
                              {"sahl.varianceOver",
                               settings.samplerKind == SAMPLER_SOBOL ? "blocks" : "samples"}};
     if (settings.integrator != INTEGRATOR_PATH) return entries;
+    entries["sahl.lightSampling"] = lightSamplingName(settings.lightSampling);
     if (settings.rouletteDepth != NO_ROULETTE)
         entries["sahl.rouletteDepth"] = std::to_string(settings.rouletteDepth);
     if (settings.clampIndirect > 0) {

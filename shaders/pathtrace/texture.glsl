@@ -126,14 +126,20 @@ bool isCutOut(Primitive triangle, uint instanceMaterial, float b1, float b2)
     return lookUpAlpha(material.baseColorTexture, uv.x, uv.y) < material.alphaCutoff;
 }
 
+/// Radiance of a material at (u, v) [W m^-2 sr^-1].
+vec3 emittedAt(Material material, float u, float v)
+{
+    if (!HAS_TEXTURES || material.emissionTexture == NO_TEXTURE) return material.emission;
+    return flushed3(material.emission * lookUpColor(material.emissionTexture, u, v));
+}
+
 /// The material as it is at (u, v): its numbers times those of its textures.
 Material texturedMaterial(Material material, float u, float v)
 {
     if (!HAS_TEXTURES) return material;
     if (material.baseColorTexture != NO_TEXTURE)
         material.baseColor = material.baseColor * lookUpColor(material.baseColorTexture, u, v);
-    if (material.emissionTexture != NO_TEXTURE)
-        material.emission = flushed3(material.emission * lookUpColor(material.emissionTexture, u, v));
+    material.emission = emittedAt(material, u, v);
     if (material.roughnessTexture != NO_TEXTURE) {
         vec3 share = lookUpColor(material.roughnessTexture, u, v);
         material.roughness = material.roughness * share.y;
