@@ -115,6 +115,43 @@ TEST(TexturePictures, ofLamps_multiplyTheirLight)
     }
 }
 
+/// A lamp with a picture, one of whose three texels is a hole, and a globe that shines over a
+/// floor: whatever finds their light, it is as much. Paths that run into the lamps by chance find
+/// it with a noise of 0.5 %.
+TEST(TexturePictures, ofLamps_giveTheSameLightHoweverItIsFound)
+{
+    auto lightBy = [](uint32_t lightSampling) {
+        Scene scene = emptyScene(24, 24, 1);
+        scene.settings.spp = 256;
+        scene.settings.lightSampling = lightSampling;
+        addMaterial(scene, "floor", vec3(0.8f));
+        addLevel(scene, 0, 2);
+        Material& lamp = addTextured(
+            scene, 3, 1,
+            {packTexel(255, 0, 0, 255), packTexel(0, 255, 0, 10), packTexel(20, 20, 20, 255)},
+            nearestTexel());
+        lamp.emissionTexture = lamp.baseColorTexture;
+        lamp.emission = vec3(8);
+        lamp.alphaCutoff = 0.5f;
+        addRectangle(scene, {-1.5, 1, -1.5}, {3, 0, 0}, {0, 0, 3});
+        Material& globe = addTextured(scene, 4, 4, patches(4, 4, false));
+        globe.emissionTexture = globe.baseColorTexture;
+        globe.emission = vec3(6);
+        addSphere(scene, {1, 0.5f, 1}, 0.3f);
+        lookParallel(scene, {0, 0.01, 0}, {0, 0, 0}, 2, {0, 0, -1});
+        const Image image = meanImage(filmOf(scene));
+        glm::dvec3 sum(0.0);
+        for (size_t i = 0; i < image.rgb.size(); i++) sum[static_cast<int>(i % 3)] += image.rgb[i];
+        return sum / double(24 * 24);
+    };
+    const glm::dvec3 both = lightBy(LIGHTS_MIS), shadowRays = lightBy(LIGHTS_ONLY),
+                     scattered = lightBy(LIGHTS_BSDF_ONLY);
+    for (int c = 0; c < 3; c++) {
+        EXPECT_NEAR(shadowRays[c] / both[c], 1, 0.01) << c;
+        EXPECT_NEAR(scattered[c] / both[c], 1, 0.02) << c;
+    }
+}
+
 /// Cards over a floor, seen from above; no pixel's centre lies on the border of a hole or of its
 /// shadow.
 Scene cardScene(bool byTexture)
