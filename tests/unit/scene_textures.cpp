@@ -120,16 +120,18 @@ TEST(SceneTextures, thatCannotBe_areRefusedWithTheirPlace)
 TEST(SceneTextures, coordinatesOfTriangles_areOnePairForEachPosition)
 {
     const TextureFiles files;
-    const std::string scene =
-        R"({"materials":{"m":{"type":"lambert","baseColorTexture":"a.png"}},"shapes":[)"
-        R"({"type":"triangles","positions":[[0,0,0],[1,0,0],[0,1,0]],"indices":[[0,1,2]],)"
-        R"("material":"m","uvs":[[0.25,0],[1,-2],[0,3]{}]}}]}})";
-    files.write("t.json", fmt::format(fmt::runtime(scene), ""));
+    auto sceneWith = [](const std::string& more) {
+        return R"({"materials":{"m":{"type":"lambert","baseColorTexture":"a.png"}},"shapes":[)"
+               R"({"type":"triangles","positions":[[0,0,0],[1,0,0],[0,1,0]],"indices":[[0,1,2]],)"
+               R"("material":"m","uvs":[[0.25,0],[1,-2],[0,3])" +
+               more + R"(]}],"environment":{"radiance":[1,1,1]}})";
+    };
+    files.write("t.json", sceneWith(""));
     const TriangleCorners corners = files.load("t.json").triangleCorners.at(0);
     EXPECT_EQ(vec3(corners.u0, corners.u1, corners.u2), vec3(0.25f, 1, 0));
     EXPECT_EQ(vec3(corners.v0, corners.v1, corners.v2), vec3(0, -2, 3));
     EXPECT_EQ(corners.n0, vec3(0));
-    files.write("t.json", fmt::format(fmt::runtime(scene), ",[1,1]"));
+    files.write("t.json", sceneWith(",[1,1]"));
     EXPECT_CONTAINS(errorOfFile(files, "t.json"), "3 positions and 4 pairs of texture coordinates");
 }
 
