@@ -51,13 +51,11 @@ ImageMetadata describeSampling(const RenderSettings& settings)
     ImageMetadata entries = {{"sahl.sampler", samplerName(settings.samplerKind)},
                              {"sahl.varianceOver",
                               settings.samplerKind == SAMPLER_SOBOL ? "blocks" : "samples"}};
-    if (settings.integrator != INTEGRATOR_PATH) return entries;
-    if (settings.rouletteDepth != NO_ROULETTE)
-        entries["sahl.rouletteDepth"] = std::to_string(settings.rouletteDepth);
-    if (settings.clampIndirect > 0) {
-        entries["sahl.clampIndirect"] = fmt::format("{}", settings.clampIndirect);
-        entries["sahl.biased"] = "yes";
-    }
+    const bool roulette = settings.rouletteDepth != NO_ROULETTE, clamp = settings.clampIndirect > 0;
+    // Always there, so that files with and without can be told apart.
+    entries["sahl.rouletteDepth"] = roulette ? std::to_string(settings.rouletteDepth) : "off";
+    entries["sahl.clampIndirect"] = clamp ? fmt::format("{}", settings.clampIndirect) : "off";
+    if (clamp && settings.integrator == INTEGRATOR_PATH) entries["sahl.biased"] = "yes";
     return entries;
 }
 

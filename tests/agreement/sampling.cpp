@@ -39,9 +39,6 @@ TEST_F(SamplingBits, areEqualOnTheDeviceAndTheReference)
 {
     EXPECT_GT(reference().counters.clamped, 100u);
     EXPECT_TRUE(renderFilm(*openFirstDevice(), scene()) == reference());
-    DeviceOptions exact;
-    exact.math = DeviceOptions::Math::exact;
-    EXPECT_TRUE(renderFilm(*openFirstDevice(exact), scene()) == reference());
 }
 
 TEST_F(SamplingBits, areEqualWhenPathsRunOutOfSteps)

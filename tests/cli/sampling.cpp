@@ -30,8 +30,9 @@ TEST_F(Sampling, isToldByFileSummaryAndStatistics)
     ImageMetadata plain = metadataAfter({});
     EXPECT_EQ(plain["sahl.sampler"], "independent");
     EXPECT_EQ(plain["sahl.varianceOver"], "samples");
-    for (const char* name : {"sahl.rouletteDepth", "sahl.clampIndirect", "sahl.biased"})
-        EXPECT_FALSE(plain.contains(name)) << name;
+    EXPECT_EQ(plain["sahl.rouletteDepth"], "off");
+    EXPECT_EQ(plain["sahl.clampIndirect"], "off");
+    EXPECT_FALSE(plain.contains("sahl.biased"));
     const uint64_t rays = counters()["indirectRays"];
     EXPECT_EQ(counters()["clamped"], 0);
     EXPECT_FALSE(has(words_, "clamped"));
@@ -59,8 +60,8 @@ TEST_F(Sampling, isReadFromTheSceneAndCanBeSwitchedOff)
     ImageMetadata off =
         metadataAfter({"--sampler", "independent", "--roulette-depth", "off", "--clamp-indirect", "off"});
     EXPECT_EQ(off["sahl.sampler"], "independent");
-    EXPECT_FALSE(off.contains("sahl.rouletteDepth"));
-    EXPECT_FALSE(off.contains("sahl.clampIndirect"));
+    EXPECT_EQ(off["sahl.rouletteDepth"], "off");
+    EXPECT_EQ(off["sahl.clampIndirect"], "off");
 
     // Saved with its tree, the scene keeps them.
     ASSERT_EQ(sahl({"bvh", "ball.json", "-o", "ball.sahl"}, here()).exitCode, 0);
@@ -89,6 +90,16 @@ TEST_F(Sampling, partsOfOtherSamplersAreNotMerged)
     const RunResult result = sahl({"merge", "a.exr", "b.exr", "-o", "c.exr"}, here());
     EXPECT_EQ(result.exitCode, 3);
     EXPECT_HAS(result.err, "sahl.sampler is sobol, that of a.exr is independent");
+}
+
+TEST_F(Sampling, aPartThatWasClampedIsNotTakenForOneThatWasNot)
+{
+    const Arguments part = {"--spp", "16", "--shard", "0/2", "-o", "part.exr", "--skip-existing"};
+    Arguments clamped = part;
+    clamped.insert(clamped.end(), {"--clamp-indirect", "0.1"});
+    ASSERT_EQ(render(clamped).exitCode, 0);
+    EXPECT_HAS(render(part).err, "sahl.clampIndirect is \"0.1\", not \"off\"; rendering it");
+    EXPECT_HAS(render(part).err, "is finished already");
 }
 
 TEST_F(Sampling, compareKnowsWhatTheVarianceIsOver)
