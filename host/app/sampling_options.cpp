@@ -26,7 +26,7 @@ void addSamplingOptions(CLI::App& command, SceneOptions& scene)
         .add_option_function<std::string>(
             "--roulette-depth", setRoulette,
             withDefault(fmt::format("scatterings after which paths that carry little end by\n"
-                                    "chance, 0 to {}, or off; changes no mean",
+                                    "chance (same mean), 0 to {}, or off",
                                     MAX_ROULETTE_DEPTH),
                         "the scene's, else off"))
         ->type_name("N")
@@ -40,7 +40,7 @@ void addSamplingOptions(CLI::App& command, SceneOptions& scene)
         .add_option_function<std::string>(
             "--clamp-indirect", setClamp,
             withDefault("most luminance that light scattered more than once adds\n"
-                        "to a sample at a time, or off; biased, too dark",
+                        "at a time, or off; biased: too dark",
                         "the scene's, else off"))
         ->type_name("X")
         ->group("Picture");

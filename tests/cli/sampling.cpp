@@ -7,6 +7,20 @@ namespace {
 
 class Sampling : public SceneFolderTest {
 protected:
+    /// With a floor, so that light is scattered more than once.
+    Sampling() { writeText(folder / "ball.json", sceneOnAFloor().dump()); }
+
+    static nlohmann::json sceneOnAFloor()
+    {
+        nlohmann::json scene = nlohmann::json::parse(ballScene());
+        scene["shapes"].push_back({{"type", "rectangle"},
+                                   {"corner", {-4, -1, 4}},
+                                   {"edgeU", {8, 0, 0}},
+                                   {"edgeV", {0, 0, -8}},
+                                   {"material", "clay"}});
+        return scene;
+    }
+
     ImageMetadata metadataAfter(const Arguments& more)
     {
         Arguments arguments = {"--spp", "16", "-o", "ball.exr", "--stats", "ball-stats.json"};
@@ -50,7 +64,7 @@ TEST_F(Sampling, isToldByFileSummaryAndStatistics)
 
 TEST_F(Sampling, isReadFromTheSceneAndCanBeSwitchedOff)
 {
-    nlohmann::json scene = nlohmann::json::parse(ballScene());
+    nlohmann::json scene = sceneOnAFloor();
     scene["integrator"].update({{"sampler", "sobol"}, {"rouletteDepth", 2}, {"clampIndirect", 0.5}});
     writeText(folder / "ball.json", scene.dump());
     ImageMetadata read = metadataAfter({});
@@ -89,7 +103,7 @@ TEST_F(Sampling, partsOfOtherSamplersAreNotMerged)
     ASSERT_EQ(render({"--spp", "16", "--sample-range", "8:16", "--sampler", "sobol", "-o", "b.exr"}).exitCode, 0);
     const RunResult result = sahl({"merge", "a.exr", "b.exr", "-o", "c.exr"}, here());
     EXPECT_EQ(result.exitCode, 3);
-    EXPECT_HAS(result.err, "sahl.sampler is sobol, that of a.exr is independent");
+    EXPECT_HAS(result.err, "sahl.sampler is \"sobol\", that of a.exr is \"independent\"");
 }
 
 TEST_F(Sampling, aPartThatWasClampedIsNotTakenForOneThatWasNot)
