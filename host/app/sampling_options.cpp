@@ -14,13 +14,15 @@ void addSamplingOptions(CLI::App& command, SceneOptions& scene)
     command
         .add_option_function<std::string>(
             "--sampler", setSampler,
-            withDefault("independent, or sobol: blocks of 8 samples spread evenly\n(docs/sampling.md)",
-                        "the scene's, else independent"))
+            withDefault(
+                "independent, or sobol: blocks of 8 samples spread evenly\n(docs/sampling.md)",
+                "the scene's, else independent"))
         ->type_name("NAME")
         ->group("Picture");
     auto setRoulette = [&scene](const std::string& text) {
-        scene.rouletteDepth =
-            text == "off" ? NO_ROULETTE : parseNumber("--roulette-depth", text, {0, MAX_ROULETTE_DEPTH});
+        scene.rouletteDepth = text == "off"
+                                  ? NO_ROULETTE
+                                  : parseNumber("--roulette-depth", text, {0, MAX_ROULETTE_DEPTH});
     };
     command
         .add_option_function<std::string>(
@@ -32,9 +34,10 @@ void addSamplingOptions(CLI::App& command, SceneOptions& scene)
         ->type_name("N")
         ->group("Picture");
     auto setClamp = [&scene](const std::string& text) {
-        scene.clampIndirect =
-            text == "off" ? 0.0f
-                          : static_cast<float>(parseReal("--clamp-indirect", text, CLAMP_RANGE.lo, CLAMP_RANGE.hi));
+        scene.clampIndirect = text == "off"
+                                  ? 0.0f
+                                  : static_cast<float>(parseReal("--clamp-indirect", text,
+                                                                 CLAMP_RANGE.lo, CLAMP_RANGE.hi));
     };
     command
         .add_option_function<std::string>(
@@ -48,9 +51,9 @@ void addSamplingOptions(CLI::App& command, SceneOptions& scene)
 
 ImageMetadata describeSampling(const RenderSettings& settings)
 {
-    ImageMetadata entries = {{"sahl.sampler", samplerName(settings.samplerKind)},
-                             {"sahl.varianceOver",
-                              settings.samplerKind == SAMPLER_SOBOL ? "blocks" : "samples"}};
+    ImageMetadata entries = {
+        {"sahl.sampler", samplerName(settings.samplerKind)},
+        {"sahl.varianceOver", settings.samplerKind == SAMPLER_SOBOL ? "blocks" : "samples"}};
     const bool roulette = settings.rouletteDepth != NO_ROULETTE, clamp = settings.clampIndirect > 0;
     // Always there, so that files with and without can be told apart.
     entries["sahl.rouletteDepth"] = roulette ? std::to_string(settings.rouletteDepth) : "off";
