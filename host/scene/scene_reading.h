@@ -85,6 +85,9 @@ void applyOptions(RenderSettings& settings, const SceneOptions& options);
 /// Reads the environment named by the command line.
 void applyProbeOption(Scene& scene, const SceneOptions& options);
 
+/// Lights a scene that has no light of its own.
+void useStudioProbe(Scene& scene, const SceneOptions& options);
+
 /// Throws badInput unless width * height is a bearable number of pixels.
 void checkPictureSize(const RenderSettings& settings, const std::string& name);
 
