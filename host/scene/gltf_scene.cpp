@@ -88,7 +88,7 @@ bool isGltfFile(const fs::path& file)
     return extension == ".gltf" || extension == ".glb";
 }
 
-void appendGltf(Scene& scene, const GltfModel& model, const GltfPlacing& placing)
+uint64_t appendGltf(Scene& scene, const GltfModel& model, const GltfPlacing& placing)
 {
     const std::string& file = model.file.document.file;
     const size_t primitivesBefore = scene.primitives.size();
@@ -115,6 +115,7 @@ void appendGltf(Scene& scene, const GltfModel& model, const GltfPlacing& placing
     if (dropped > 0) warn(fmt::format("{}: left out {} triangles of zero area", file, dropped));
     if (scene.primitives.size() == primitivesBefore && instances == 0)
         throw badInput("{}: the scene of this file has no triangles", file);
+    return instances;
 }
 
 Scene loadGltfScene(const fs::path& path, const SceneOptions& options)
