@@ -16,9 +16,9 @@ struct GltfPlacing {
 };
 
 /// Adds the meshes of a model: to scene.primitives what is placed once, as objects with instances
-/// what is placed several times. Throws badInput when nothing is left or there are too many
-/// instances.
-void appendGltf(Scene& scene, const GltfModel& model, const GltfPlacing& placing);
+/// what is placed several times. Returns the number of instances. Throws badInput when nothing is
+/// left or there are too many of them.
+uint64_t appendGltf(Scene& scene, const GltfModel& model, const GltfPlacing& placing);
 
 /// Adds a material of the model and the textures that it uses; returns its index in
 /// scene.materials.
