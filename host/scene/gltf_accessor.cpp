@@ -41,10 +41,17 @@ uint32_t componentSize(uint32_t componentType)
     }
 }
 
-uint32_t elementSize(const ElementType& type, uint32_t componentType)
+/// Bytes of an element: `whole` from one to the next when they are packed, `last` of the last one,
+/// which needs nothing behind its last column.
+struct ElementSize {
+    uint32_t whole, last;
+};
+
+ElementSize elementSize(const ElementType& type, uint32_t componentType)
 {
     const uint32_t column = type.components / type.columns * componentSize(componentType);
-    return type.columns == 1 ? column : type.columns * ((column + 3) / 4 * 4);
+    const uint32_t padded = type.columns == 1 ? column : (column + 3) / 4 * 4;
+    return {type.columns * padded, (type.columns - 1) * padded + column};
 }
 
 const ElementType& readElementType(const JsonObject& accessor)
@@ -66,29 +73,30 @@ uint32_t readComponentType(const JsonObject& object)
 }
 
 /// Numbers of `count` elements in the view that `object` names, at its byteOffset.
-GltfNumbers locate(const GltfFile& file, const JsonObject& object, uint32_t count, uint32_t size,
+GltfNumbers locate(const GltfFile& file, const JsonObject& object, uint32_t count, ElementSize size,
                    uint32_t componentType, bool isMatrix)
 {
     const GltfView& view =
         file.views[requiredIndex(object, "bufferView", file.views.size(), "buffer views")];
     const uint32_t offset = object.uint("byteOffset", 0, 0, 0xffffffffu);
-    const uint32_t alignment = isMatrix ? 4 : componentSize(componentType);
-    if (offset % alignment != 0 || (uint64_t{offset} + view.offset) % alignment != 0) {
+    const uint32_t bytes = componentSize(componentType);
+    if (offset % (isMatrix ? 4 : bytes) != 0 || (uint64_t{offset} + view.offset) % bytes != 0) {
         throw errorAt(
             object.document(), object.node(),
             fmt::format("{} begins at byte {} of {}, which is at byte {} of its buffer; both "
-                        "must be multiples of {}",
-                        object.what(), offset, view.what, view.offset, alignment));
+                        "must be multiples of {}{}",
+                        object.what(), offset, view.what, view.offset, bytes,
+                        isMatrix ? ", for a matrix the first of 4" : ""));
     }
     GltfNumbers numbers;
     numbers.componentType = componentType;
-    numbers.stride = view.stride > 0 ? view.stride : size;
-    if (numbers.stride < size) {
+    numbers.stride = view.stride > 0 ? view.stride : size.whole;
+    if (numbers.stride < size.whole) {
         throw errorAt(object.document(), object.node(),
                       fmt::format("{} has elements of {} bytes, and the stride of {} is {}",
-                                  object.what(), size, view.what, view.stride));
+                                  object.what(), size.whole, view.what, view.stride));
     }
-    const uint64_t end = offset + uint64_t{numbers.stride} * (count - 1) + size;
+    const uint64_t end = offset + uint64_t{numbers.stride} * (count - 1) + size.last;
     if (end > view.bytes.size()) {
         throw errorAt(object.document(), object.node(),
                       fmt::format("{} ends at byte {} of {}, which has {}", object.what(), end,
@@ -148,7 +156,7 @@ void checkSparseIndices(const JsonObject& indices, const GltfSparse& sparse, uin
 }
 
 GltfSparse readSparse(const GltfFile& file, const JsonObject& object, const GltfAccessor& accessor,
-                      uint32_t size, bool isMatrix)
+                      ElementSize size, bool isMatrix)
 {
     GltfSparse sparse;
     sparse.count = requiredUint(object, "count", 1, accessor.count);
@@ -168,7 +176,8 @@ GltfSparse readSparse(const GltfFile& file, const JsonObject& object, const Gltf
         throw errorAt(file.document, indices.at("componentType"),
                       fmt::format("{} must be whole numbers without sign", indices.what()));
     }
-    sparse.indices = locate(file, indices, sparse.count, componentSize(type), type, false);
+    const uint32_t bytes = componentSize(type);
+    sparse.indices = locate(file, indices, sparse.count, {bytes, bytes}, type, false);
     sparse.values = locate(file, *childOf(object, "values"), sparse.count, size,
                            accessor.numbers.componentType, isMatrix);
     checkSparseIndices(indices, sparse, accessor.count);
@@ -183,7 +192,7 @@ GltfAccessor readAccessor(const GltfFile& file, const JsonNode& node, size_t ind
     const JsonObject object(file.document, node, accessor.what);
     const ElementType& type = readElementType(object);
     const uint32_t componentType = readComponentType(object);
-    const uint32_t size = elementSize(type, componentType);
+    const ElementSize size = elementSize(type, componentType);
     accessor.type = type.name;
     accessor.components = type.components;
     accessor.count = requiredUint(object, "count", 1, 0xffffffffu);

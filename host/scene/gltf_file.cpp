@@ -110,10 +110,12 @@ void readBuffer(GltfFile& file, const JsonNode& node, size_t index)
         bytes = readGltfUri(file, buffer);
     } else if (index == 0 && file.binary) {
         bytes = *file.binary;
+    } else if (index == 0 && !file.glb.empty()) {
+        throw errorAt(file.document, node,
+                      "buffer 0 should be the binary part of the file, which has none");
     } else {
-        throw errorAt(
-            file.document, node,
-            fmt::format("buffer {} has no \"uri\", and the file no binary part for it", index));
+        file.buffers.push_back({});  // filled by an extension; views of it find it empty
+        return;
     }
     if (bytes.size() < length) {
         throw errorAt(file.document, buffer.at("byteLength"),

@@ -66,6 +66,7 @@ Transform readLocal(const JsonObject& node)
 Node readNode(GltfFile& file, const JsonNode& json, size_t index)
 {
     const JsonObject object(file.document, json, fmt::format("node {}", index));
+    object.string("name", "");
     Node node;
     node.local = readLocal(object);
     node.content.mesh = indexOf(object, "mesh", countOf(file, "meshes"), "meshes");
@@ -132,6 +133,7 @@ std::vector<uint32_t> readRoots(const GltfFile& file, const std::vector<Node>& n
     std::vector<uint32_t> roots;
     for (uint32_t i = 0; i < scenes.size(); i++) {
         const JsonObject scene(file.document, scenes[i], fmt::format("scene {}", i));
+        scene.string("name", "");
         for (const JsonNode& item : itemsOf(scene, "nodes")) {
             const uint32_t root =
                 readIndex(file.document, item, "a node of " + scene.what(), nodes.size(), "nodes");

@@ -133,6 +133,7 @@ GltfPart readPart(GltfModel& model, const JsonNode& node, const std::string& wha
 std::vector<GltfPart> readGltfParts(GltfModel& model, const JsonNode& node, size_t index)
 {
     const JsonObject mesh(model.file.document, node, fmt::format("mesh {}", index));
+    mesh.string("name", "");
     required(mesh, "primitives");
     std::vector<GltfPart> parts;
     for (const JsonNode& item : itemsOf(mesh, "primitives")) {
