@@ -88,6 +88,21 @@ void readRefraction(GltfModel& model, const JsonObject& object, GltfMaterial& ma
         leaveOut(model.file, "textures of transmission are left out");
 }
 
+/// Meshes keep one set of texture coordinates for each material.
+void warnAboutSets(GltfModel& model, const GltfMaterial& material)
+{
+    std::optional<uint32_t> first;
+    for (const auto* use : material.textures()) {
+        if (!*use) continue;
+        if (first.value_or((*use)->texCoord) != (*use)->texCoord) {
+            leaveOut(model.file,
+                     "textures of one material use different sets of texture coordinates: "
+                     "the first one's set is used");
+        }
+        if (!first) first = (*use)->texCoord;
+    }
+}
+
 GltfMaterial readMaterial(GltfModel& model, const JsonNode& node, size_t index)
 {
     const JsonObject object(model.file.document, node, fmt::format("material {}", index));
@@ -98,13 +113,12 @@ GltfMaterial readMaterial(GltfModel& model, const JsonNode& node, size_t index)
     readAlpha(model, object, material);
     readRefraction(model, object, material);
     material.normalTexture = readTextureUse(model, object, "normalTexture");
-    if (const auto normal = childOf(object, "normalTexture")) {
-        if (normal->number("scale", 1, {-1e6, 1e6}) != 1)
-            leaveOut(model.file, "the scale of normal textures is not used");
-    }
+    if (const auto normal = childOf(object, "normalTexture"))
+        material.normalStrength = normal->number("scale", 1, {-1e6, 1e6});
     readTextureUse(model, object,
                    "occlusionTexture");  // checked; a path tracer finds what it tells
     object.boolean("doubleSided", false);
+    warnAboutSets(model, material);
     return material;
 }
 

@@ -29,6 +29,12 @@ struct GltfMaterial {
     std::optional<GltfTextureUse> roughnessTexture;  ///< green: roughness, blue: metallic
     std::optional<GltfTextureUse> normalTexture;
     std::optional<GltfTextureUse> emissionTexture;
+    double normalStrength = 1;  ///< red and green of the normal texture count so many times
+
+    std::array<const std::optional<GltfTextureUse>*, 4> textures() const
+    {
+        return {&baseColorTexture, &roughnessTexture, &normalTexture, &emissionTexture};
+    }
 };
 
 /// A picture: a file, or bytes of a buffer.

@@ -41,9 +41,20 @@ std::optional<uint32_t> setOf(const std::string& name)
     return isNumber ? std::optional(static_cast<uint32_t>(std::stoul(digits))) : std::nullopt;
 }
 
-void readAttribute(GltfFile& file, const JsonObject& attributes, const std::string& name,
+/// The set of texture coordinates that the part's material uses; nullopt where it has no textures.
+std::optional<uint32_t> texCoordSetOf(const GltfModel& model, const GltfPart& part)
+{
+    const GltfMaterial& material = model.materials[part.material];
+    for (const auto* use : material.textures()) {
+        if (*use) return (*use)->texCoord;
+    }
+    return std::nullopt;
+}
+
+void readAttribute(GltfModel& model, const JsonObject& attributes, const std::string& name,
                    GltfPart& part)
 {
+    GltfFile& file = model.file;
     const uint32_t index = requiredIndex(attributes, name, file.accessors.size(), "accessors");
     const GltfAccessor& accessor = file.accessors[index];
     const std::optional<uint32_t> set = setOf(name);
@@ -61,9 +72,7 @@ void readAttribute(GltfFile& file, const JsonObject& attributes, const std::stri
     if (name == "POSITION") part.positions = &accessor;
     if (name == "NORMAL") part.normals = &accessor;
     if (name.starts_with("COLOR_")) leaveOut(file, "colours of vertices are not used");
-    if (!set) return;
-    part.texCoords.resize(std::max(part.texCoords.size(), size_t{*set} + 1), nullptr);
-    part.texCoords[*set] = &accessor;
+    if (set && set == texCoordSetOf(model, part)) part.texCoords = &accessor;
 }
 
 /// All attributes have a value for each vertex.
@@ -118,8 +127,10 @@ GltfPart readPart(GltfModel& model, const JsonNode& node, const std::string& wha
     required(object, "attributes");
     const JsonObject attributes = *childOf(object, "attributes");
     for (const JsonKey& key : attributes.node().keys)
-        readAttribute(file, attributes, key.name, part);
+        readAttribute(model, attributes, key.name, part);
     requireSameCounts(file, attributes, part);
+    if (texCoordSetOf(model, part) && !part.texCoords)
+        leaveOut(file, "a mesh without texture coordinates shows one point of its textures");
     part.indices = readIndexAccessor(file, object, part);
     if (!itemsOf(object, "targets").empty())
         leaveOut(

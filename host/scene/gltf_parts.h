@@ -18,7 +18,7 @@ struct GltfPart {
     const GltfAccessor* indices = nullptr;
     const GltfAccessor* positions = nullptr;  ///< null: nothing is shown
     const GltfAccessor* normals = nullptr;
-    std::vector<const GltfAccessor*> texCoords;  ///< by the number of their set
+    const GltfAccessor* texCoords = nullptr;  ///< of the set that the material uses
 };
 
 /// The parts of one of "meshes": all accessors are of a kind that their use allows, and those of

@@ -60,6 +60,14 @@ vec3 readNormal(const GltfPart& part, uint32_t vertex)
     return isFinite(n) ? toFloat(n) : vec3(0.0f);
 }
 
+/// v goes down in the file and up in meshes.
+vec2 readUv(const GltfPart& part, uint32_t vertex)
+{
+    const double u = gltfNumber(*part.texCoords, vertex, 0);
+    const double v = 1 - gltfNumber(*part.texCoords, vertex, 1);
+    return isFinite({u, v, 0}) ? vec2(toFloat(u), toFloat(v)) : vec2(0.0f);
+}
+
 }  // namespace
 
 uint64_t trianglesOf(const GltfPart& part)
@@ -78,9 +86,11 @@ void addGltfPart(GltfFile& file, const GltfPart& part, Mesh& mesh)
     used.erase(std::unique(used.begin(), used.end()), used.end());
     const auto firstPosition = static_cast<uint32_t>(mesh.positions.size());
     const auto firstNormal = static_cast<uint32_t>(mesh.normals.size());
+    const auto firstUv = static_cast<uint32_t>(mesh.uvs.size());
     for (const uint32_t vertex : used) {
         mesh.positions.push_back(readPosition(file, part, vertex));
         if (part.normals) mesh.normals.push_back(readNormal(part, vertex));
+        if (part.texCoords) mesh.uvs.push_back(readUv(part, vertex));
     }
     if (part.mode == GLTF_TRIANGLES && corners.size() % 3 != 0)
         leaveOut(file, "corners that make no whole triangle are left out");
@@ -94,6 +104,7 @@ void addGltfPart(GltfFile& file, const GltfPart& part, Mesh& mesh)
                 std::lower_bound(used.begin(), used.end(), corners[places[k]]) - used.begin();
             triangle.position[k] = firstPosition + static_cast<uint32_t>(place);
             if (part.normals) triangle.normal[k] = firstNormal + static_cast<uint32_t>(place);
+            if (part.texCoords) triangle.uv[k] = firstUv + static_cast<uint32_t>(place);
         }
         mesh.triangles.push_back(triangle);
     }
