@@ -20,14 +20,21 @@ void requireRoom(const GltfFile& file, uint64_t triangles)
                   "use a smaller model");
 }
 
-void addParts(GltfFile& file, const std::vector<GltfPart>& parts, Mesh& mesh)
+/// Whether alphaMode MASK cuts away all of what has the material.
+bool isCutAway(const GltfMaterial& material)
 {
+    return !material.baseColorTexture && material.alpha < material.alphaCutoff;
+}
+
+void addParts(GltfModel& model, const std::vector<GltfPart>& parts, Mesh& mesh)
+{
+    GltfFile& file = model.file;
     for (const GltfPart& part : parts) {
         if (!part.positions)
             leaveOut(file, "a primitive without positions is left out");
         else if (part.mode < GLTF_TRIANGLES)
             leaveOut(file, "points and lines are left out");
-        else
+        else if (!isCutAway(model.materials[part.material]))
             addGltfPart(file, part, mesh);
     }
 }
@@ -58,7 +65,7 @@ void readGltfMeshes(GltfModel& model, std::span<const GltfPlacedNode> nodes)
     for (size_t i = 0; i < meshes.size(); i++) {
         if (places[i].empty()) continue;
         GltfMesh mesh{fmt::format("mesh {}", i), {}, std::move(places[i])};
-        addParts(file, meshes[i], mesh.mesh);
+        addParts(model, meshes[i], mesh.mesh);
         if (!mesh.mesh.triangles.empty()) model.meshes.push_back(std::move(mesh));
     }
 }

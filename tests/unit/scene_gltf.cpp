@@ -1,4 +1,5 @@
 // glTF files: what of them becomes a scene.
+#include "image/image.h"
 #include "support/gltf_files.h"
 #include "support/gzip_files.h"
 #include "support/scene_files.h"
@@ -368,6 +369,109 @@ TEST(Gltf, extensionsThatAreRequiredAndNotKnownAreRefusedByName)
     });
     EXPECT_CONTAINS(warnings,
                     "model.gltf: extensions that are not read: KHR_materials_sheen, ACME_x\n");
+}
+
+/// The one material of a file with a square that has it, and what the file has besides.
+Material materialOf(const std::string& material, const std::string& more = "")
+{
+    const std::string members =
+        squareViews() +
+        R"(, "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+           "materials": [)" +
+        material + "], " + more + ONE_NODE;
+    return loadGltf(gltfText(members, squareBuffer())).materials.at(0);
+}
+
+TEST(Gltf, materialsHaveTheFactorsOfTheFile)
+{
+    const Material none = materialOf("{}");
+    EXPECT_EQ(none.baseColor, vec3(1));
+    EXPECT_EQ(none.metallic, 1);
+    EXPECT_EQ(none.roughness, 1);
+    EXPECT_EQ(none.eta, 1.5f);
+    EXPECT_EQ(none.emission, vec3(0));
+    EXPECT_EQ(none.alphaCutoff, 0);
+    const Material all = materialOf(R"({"pbrMetallicRoughness":
+            {"baseColorFactor": [0.25, 0.5, 0.75, 0.5], "metallicFactor": 0.125, "roughnessFactor": 0.375},
+        "emissiveFactor": [1, 0.5, 0], "alphaMode": "MASK", "alphaCutoff": 0.125,
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 6},
+                       "KHR_materials_ior": {"ior": 1.25},
+                       "KHR_materials_transmission": {"transmissionFactor": 0.625}}})");
+    EXPECT_EQ(all.baseColor, vec3(0.25f, 0.5f, 0.75f));
+    EXPECT_EQ(all.metallic, 0.125f);
+    EXPECT_EQ(all.roughness, 0.375f);
+    EXPECT_EQ(all.emission, vec3(6, 3, 0));
+    EXPECT_EQ(all.eta, 1.25f);
+    EXPECT_EQ(all.transmission, 0.625f);
+    EXPECT_EQ(all.alphaCutoff, 0.25f);  // of the texture's alpha, without the factor 0.5
+}
+
+TEST(Gltf, whatAlphaCutsAwayWholeIsNotThere)
+{
+    const std::string invisible = gltfText(
+        squareViews() +
+            R"(, "materials": [{"alphaMode": "MASK", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.25]}}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}], )" +
+            ONE_NODE,
+        squareBuffer());
+    EXPECT_CONTAINS(errorOfGltf(invisible), "has no triangles");
+}
+
+/// A picture of 2 x 1 texels, red and blue, as a PNG file.
+std::string redAndBlue()
+{
+    const std::vector<uint8_t> bytes = encodePng({2, 1, {255, 0, 0, 0, 0, 255}}, {});
+    return {bytes.begin(), bytes.end()};
+}
+
+TEST(Gltf, texturesAreLookedUpWhereTheFileSays)
+{
+    SceneFolder files;
+    files.write("two words.png", redAndBlue());
+    const std::string png = redAndBlue();
+    const std::string buffer =
+        squareBuffer() + bytesOf<float>({0, 0.25, 1, 0.25, 1, 1, 0, 1}) + png;
+    const std::string members =
+        R"("bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12},
+                           {"buffer": 0, "byteOffset": 60, "byteLength": 32}, {"buffer": 0, "byteOffset": 92, "byteLength": )" +
+        std::to_string(png.size()) + R"(}],
+           "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                         {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
+                         {"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC2"}],
+           "images": [{"uri": "two%20words.png"}, {"bufferView": 3, "mimeType": "image/png"}, {"uri": "missing.png"}],
+           "samplers": [{"wrapS": 33071, "magFilter": 9728}],
+           "textures": [{"source": 0, "sampler": 0}, {"source": 1}, {"source": 2}],
+           "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "extensions": {"KHR_texture_transform":
+                              {"offset": [0.5, 0.25], "rotation": 1.5707963267948966, "scale": [2, 4]}}}},
+                          "emissiveTexture": {"index": 1, "texCoord": 0}, "normalTexture": {"index": 1, "scale": 3}},
+                         {"emissiveTexture": {"index": 2}}],
+           "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 2, "TEXCOORD_1": 2}, "indices": 1, "material": 0}]}], )" +
+        ONE_NODE;
+    files.write("model.gltf", gltfText(members, buffer));
+    const Scene scene = files.load("model.gltf");
+    ASSERT_EQ(scene.textures.size(), 3u);
+    EXPECT_EQ(scene.pictures.size(), 2u);  // that of the file, that of the buffer; none is missed
+    const Material& material = scene.materials.at(0);
+    const Texture& color = scene.textures.at(material.baseColorTexture - 1);
+    EXPECT_EQ(color.flags, TEXTURE_SRGB | TEXTURE_CLAMP_S | TEXTURE_NEAREST);
+    EXPECT_EQ(scene.textureTexels.at(color.firstTexel), 0xff0000ffu);
+    // (u, v) of the file go to (4 v + 1/2, -2 u + 1/4); both v turned up: s = 4 (1 - v) + 1/2, t =
+    // 2 u + 3/4.
+    expectNear(color.rowS, {0, -4, 4.5f});
+    expectNear(color.rowT, {2, 0, 0.75f});
+    EXPECT_EQ(scene.textures.at(material.emissionTexture - 1).flags, TEXTURE_SRGB);
+    const Texture& normal = scene.textures.at(material.normalTexture - 1);
+    EXPECT_EQ(normal.flags, 0u);
+    EXPECT_EQ(normal.strength, 3);
+    // The corners' v of 0.25, 0.25, 1 are up in the scene.
+    const TriangleCorners& corners = scene.triangleCorners.at(scene.primitives[0].shape);
+    EXPECT_EQ(vec3(corners.u0, corners.u1, corners.u2), vec3(0, 1, 1));
+    EXPECT_EQ(vec3(corners.v0, corners.v1, corners.v2), vec3(0.75f, 0.75f, 0));
+
+    std::string broken = gltfText(members, buffer);
+    broken.replace(broken.find("two%20words"), 11, "missing");
+    files.write("model.gltf", broken);
+    EXPECT_CONTAINS(errorOfFile(files, "model.gltf"), "missing.png");
 }
 
 TEST(Gltf, aSceneFileNamesItAmongItsShapes)
