@@ -4,14 +4,14 @@ import array
 
 import pictures
 
-ROWS_PER_TEXEL = 4
+ROWS_PER_TEXEL = 16
 
 
 def resampled(tool, source, target):
     """Writes the lat-long picture `source` with more rows, so that bilinear lookup in it gives what Mitsuba 3
     gives: there the first and the last row lie on the poles, here half a row from them. Columns agree. Between
     rows the values are linear in both, so that only next to a row's old place something is left of the
-    difference, less than a hundredth of the change from texel to texel, and of either sign."""
+    difference, and less the more rows there are."""
     picture, _ = pictures.read(tool, source)
     width, height = picture.width, picture.height
     rows = ROWS_PER_TEXEL * (height - 1)
