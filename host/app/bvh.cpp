@@ -32,7 +32,7 @@ struct SceneBytes {
 SceneBytes bytesOf(const DeviceScene& scene)
 {
     return {scene.nodes.size_bytes(), scene.primitives.size_bytes(),
-            scene.triangleNormals.size_bytes(), scene.probeTexels.size_bytes(),
+            scene.triangleCorners.size_bytes(), scene.probeTexels.size_bytes(),
             scene.materials.size_bytes() + scene.lights.size_bytes() +
                 scene.instances.size_bytes()};
 }

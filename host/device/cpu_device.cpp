@@ -160,7 +160,7 @@ public:
     {
         scene_ = scene;
         statistics_.sceneBytes = scene.nodes.size_bytes() + scene.primitives.size_bytes() +
-                                 scene.triangleNormals.size_bytes() + scene.materials.size_bytes() +
+                                 scene.triangleCorners.size_bytes() + scene.materials.size_bytes() +
                                  scene.lights.size_bytes() + scene.probeTexels.size_bytes() +
                                  scene.instances.size_bytes();
     }

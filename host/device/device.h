@@ -19,9 +19,12 @@ namespace sahl {
 struct DeviceScene {
     std::span<const BvhNode> nodes;
     std::span<const Primitive> primitives;  ///< in leaf order
-    std::span<const TriangleNormals> triangleNormals;
+    std::span<const TriangleCorners> triangleCorners;
     std::span<const Material> materials;
     std::span<const Light> lights;
+    std::span<const AliasEntry> aliasEntries;  ///< to choose a light, then to choose a probe's texel
+    std::span<const Texture> textures;
+    std::span<const uint32_t> textureTexels;  ///< RGBA8
     std::span<const vec4> probeTexels;
     std::span<const ObjectInstance> instances;
     Frame frame = {};

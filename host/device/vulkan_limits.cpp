@@ -63,8 +63,8 @@ std::string whyTooLarge(const PhysicalDevice& device, const SceneBytes& bytes, b
 
 const char* sceneArrayName(uint32_t binding)
 {
-    constexpr const char* NAMES[SCENE_BUFFER_COUNT] = {"nodes",  "primitives", "normals",  "materials",
-                                                       "lights", "probe",      "instances"};
+    constexpr const char* NAMES[SCENE_BUFFER_COUNT] = {"nodes",  "primitives", "corners",  "materials",
+                                                       "tables", "probe",      "instances"};
     return NAMES[binding];
 }
 

@@ -11,14 +11,37 @@ namespace {
 
 using SceneArrays = std::array<std::span<const std::byte>, SCENE_BUFFER_COUNT>;
 
-SceneArrays sceneArrays(const DeviceScene& scene)
+/// Appends the array, filled up to whole elements of the table, and returns where it begins [16 bytes].
+template <class T>
+uint32_t appendTable(std::vector<std::byte>& tables, std::span<const T> array)
+{
+    constexpr size_t ELEMENT = 16;
+    const size_t begin = tables.size() / ELEMENT;
+    const auto bytes = std::as_bytes(array);
+    tables.insert(tables.end(), bytes.begin(), bytes.end());
+    tables.resize((tables.size() + ELEMENT - 1) / ELEMENT * ELEMENT);
+    return static_cast<uint32_t>(begin);
+}
+
+/// The arrays that share a buffer, one behind the other; `frame` says where each begins.
+std::vector<std::byte> joinTables(const DeviceScene& scene, Frame& frame)
+{
+    std::vector<std::byte> tables;
+    frame.lightsAt = appendTable(tables, scene.lights);
+    frame.aliasAt = appendTable(tables, scene.aliasEntries);
+    frame.texturesAt = appendTable(tables, scene.textures);
+    frame.textureTexelsAt = appendTable(tables, scene.textureTexels);
+    return tables;
+}
+
+SceneArrays sceneArrays(const DeviceScene& scene, std::span<const std::byte> tables)
 {
     SceneArrays arrays;
     arrays[BINDING_NODES] = std::as_bytes(scene.nodes);
     arrays[BINDING_PRIMITIVES] = std::as_bytes(scene.primitives);
-    arrays[BINDING_NORMALS] = std::as_bytes(scene.triangleNormals);
+    arrays[BINDING_CORNERS] = std::as_bytes(scene.triangleCorners);
     arrays[BINDING_MATERIALS] = std::as_bytes(scene.materials);
-    arrays[BINDING_LIGHTS] = std::as_bytes(scene.lights);
+    arrays[BINDING_TABLES] = tables;
     arrays[BINDING_PROBE] = std::as_bytes(scene.probeTexels);
     arrays[BINDING_INSTANCES] = std::as_bytes(scene.instances);
     return arrays;
@@ -58,7 +81,9 @@ Buffer uploadArray(Context& context, const std::string& name, VkBufferUsageFlags
 
 VulkanScene uploadScene(Context& context, const DeviceScene& scene, DeviceOptions::Buffers buffers)
 {
-    SceneArrays arrays = sceneArrays(scene);
+    Frame frame = scene.frame;
+    const std::vector<std::byte> tables = joinTables(scene, frame);
+    SceneArrays arrays = sceneArrays(scene, tables);
     SceneBytes bytes = {};
     VulkanScene result;
     result.bytes = sizeof(Frame);
@@ -77,7 +102,7 @@ VulkanScene uploadScene(Context& context, const DeviceScene& scene, DeviceOption
         result.arrays.push_back(uploadArray(context, sceneArrayName(i), usage, arrays[i]));
     }
     result.frame = uploadArray(context, "frame", VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
-                               std::as_bytes(std::span(&scene.frame, 1)));
+                               std::as_bytes(std::span(&frame, 1)));
     return result;
 }
 

@@ -30,20 +30,27 @@ struct Kernel {
 
     std::span<const BvhNode> nodes;
     std::span<const Primitive> primitives;
-    std::span<const TriangleNormals> triangleNormals;
+    std::span<const TriangleCorners> triangleCorners;
     std::span<const Material> materials;
     std::span<const Light> lights;
+    std::span<const AliasEntry> aliasEntries;
+    std::span<const Texture> textures;
+    std::span<const uint> textureTexels;
     std::span<const vec4> probeTexels;
     std::span<const ObjectInstance> instances;
     Frame frame = {};
 
     const BvhNode& loadNode(uint index) const { return nodes[index]; }
     const Primitive& loadPrimitive(uint index) const { return primitives[index]; }
-    const TriangleNormals& loadNormals(uint index) const { return triangleNormals[index]; }
+    const TriangleCorners& loadCorners(uint index) const { return triangleCorners[index]; }
     const Material& loadMaterial(uint index) const { return materials[index]; }
     const Light& loadLight(uint index) const { return lights[index]; }
     const ObjectInstance& loadInstance(uint index) const { return instances[index]; }
+    const AliasEntry& loadAliasEntry(uint index) const { return aliasEntries[index]; }
+    const Texture& loadTexture(uint index) const { return textures[index]; }
+    uint loadTextureTexel(uint index) const { return textureTexels[index]; }
     vec3 loadProbeTexel(uint index) const { return vec3(probeTexels[index]); }
+    float loadProbeWeight(uint index) const { return probeTexels[index].w; }
 
     // Of adaptive sampling: of all pixels of a picture, top row first.
     std::span<const PixelEstimate> estimates;

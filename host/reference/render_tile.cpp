@@ -15,9 +15,12 @@ Kernel<Order, Instances> kernelFor(const DeviceScene& scene)
     Kernel<Order, Instances> kernel = {};
     kernel.nodes = scene.nodes;
     kernel.primitives = scene.primitives;
-    kernel.triangleNormals = scene.triangleNormals;
+    kernel.triangleCorners = scene.triangleCorners;
     kernel.materials = scene.materials;
     kernel.lights = scene.lights;
+    kernel.aliasEntries = scene.aliasEntries;
+    kernel.textures = scene.textures;
+    kernel.textureTexels = scene.textureTexels;
     kernel.probeTexels = scene.probeTexels;
     kernel.instances = scene.instances;
     kernel.frame = scene.frame;

@@ -11,9 +11,11 @@ DeviceScene ownArrays(const Scene& scene, const Bvh& bvh)
     DeviceScene view;
     view.nodes = bvh.nodes;
     view.primitives = bvh.primitives;
-    view.triangleNormals = scene.triangleNormals;
+    view.triangleCorners = scene.triangleCorners;
     view.materials = scene.materials;
     view.lights = scene.lights;
+    view.textures = scene.textures;
+    view.textureTexels = scene.textureTexels;
     view.instances = bvh.instances;
     return view;
 }
@@ -38,6 +40,10 @@ DeviceScene PreparedScene::deviceScene() const
     view.frame.jitter = scene.settings.jitter ? 1 : 0;
     view.frame.ambient = scene.settings.ambient;
     view.frame.shading = scene.settings.shading;
+    view.frame.samplerKind = scene.settings.samplerKind;
+    view.frame.rouletteDepth = scene.settings.rouletteDepth;
+    view.frame.clampIndirect = scene.settings.clampIndirect;
+    view.frame.lightSampling = scene.settings.lightSampling;
     return view;
 }
 

@@ -34,6 +34,8 @@ Frame withoutSettings(Frame frame)
     frame.width = frame.height = 0;
     frame.seed = frame.maxBounces = 0;
     frame.integrator = frame.shading = 0;
+    frame.samplerKind = frame.rouletteDepth = frame.lightSampling = 0;
+    frame.clampIndirect = 0;
     frame.rootRef = 0;
     return frame;
 }
@@ -45,9 +47,12 @@ uint64_t sceneHash(const DeviceScene& scene)
     const uint64_t primitives = hashOfAll(scene.primitives);
     hash.add(std::as_bytes(std::span(&frame, 1)));
     hash.add(std::as_bytes(std::span(&primitives, 1)));
-    addArray(hash, scene.triangleNormals);
+    addArray(hash, scene.triangleCorners);
     addArray(hash, scene.materials);
     addArray(hash, scene.lights);
+    addArray(hash, scene.aliasEntries);
+    addArray(hash, scene.textures);
+    addArray(hash, scene.textureTexels);
     addArray(hash, scene.probeTexels);
     std::vector<ObjectInstance> instances(scene.instances.begin(), scene.instances.end());
     for (ObjectInstance& instance : instances) instance.rootRef = 0;

@@ -69,9 +69,9 @@ void checkPrimitives(const std::string& file, const DeviceScene& scene)
                 i, fmt::format("material {} of {}", primitive.material, scene.materials.size()));
         }
         const bool hasNormals = primitive.shape < SHAPE_SPHERE;
-        if (hasNormals && primitive.shape >= scene.triangleNormals.size()) {
+        if (hasNormals && primitive.shape >= scene.triangleCorners.size()) {
             throw wrong(
-                i, fmt::format("normals {} of {}", primitive.shape, scene.triangleNormals.size()));
+                i, fmt::format("normals {} of {}", primitive.shape, scene.triangleCorners.size()));
         }
         if (!isSoundShape(primitive)) {
             throw wrong(i, "a sphere whose radius is not positive or whose box is not finite");
@@ -79,12 +79,13 @@ void checkPrimitives(const std::string& file, const DeviceScene& scene)
     }
 }
 
-void checkNormals(const std::string& file, std::span<const TriangleNormals> normals)
+void checkNormals(const std::string& file, std::span<const TriangleCorners> normals)
 {
     for (size_t i = 0; i < normals.size(); i++) {
-        const TriangleNormals& n = normals[i];
-        if (isUnit(n.n0) && isUnit(n.n1) && isUnit(n.n2)) continue;
-        throw damaged(file, "normals", fmt::format("those of number {} are not unit vectors", i));
+        const TriangleCorners& n = normals[i];
+        const bool flat = n.n0 == vec3(0) && n.n1 == vec3(0) && n.n2 == vec3(0);
+        if (flat || (isUnit(n.n0) && isUnit(n.n1) && isUnit(n.n2))) continue;
+        throw damaged(file, "corners", fmt::format("those of number {} are not unit vectors", i));
     }
 }
 
@@ -94,7 +95,9 @@ bool isSound(const Material& material)
            isAmount(material.emission) && isFinite(material.eta) && material.eta > 0 &&
            isAmount(material.conductorEta) && isAmount(material.conductorK) &&
            isAmount({material.diffuseWeight, material.specularWeight, material.shininess}) &&
-           isAmount(material.specularColor) && isAmount(material.ambientColor);
+           isAmount(material.specularColor) && isAmount(material.ambientColor) &&
+           isAmount({material.roughness, material.metallic, material.transmission}) &&
+           isAmount({material.alphaCutoff, 0, 0});
 }
 
 bool isSound(const Light& light)
@@ -190,7 +193,7 @@ BvhStatistics checkArrays(const std::string& file, const DeviceScene& scene, uin
             fmt::format("there are {}, more than {}", scene.primitives.size(), MAX_PRIMITIVES));
     }
     checkPrimitives(file, scene);
-    checkNormals(file, scene.triangleNormals);
+    checkNormals(file, scene.triangleCorners);
     checkEach(file, "materials", scene.materials);
     checkEach(file, "lights", scene.lights);
     checkEach(file, "texels", scene.probeTexels);

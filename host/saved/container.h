@@ -17,7 +17,7 @@ namespace sahl {
 
 /// Sections begin at multiples of this [bytes]: enough for any of our structs, and a cache line.
 constexpr uint64_t SECTION_ALIGNMENT = 64;
-constexpr uint32_t SAVED_VERSION = 1;
+constexpr uint32_t SAVED_VERSION = 2;
 constexpr uint32_t BYTE_ORDER_MARK = 0x01020304;
 
 /// Like PNG's: shows transfers that change line ends or clear the eighth bit.

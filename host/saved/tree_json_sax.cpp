@@ -293,7 +293,7 @@ void TreeEvents::finishLeaf()
     if (leaf_.isInstance()) return addInstance(leaf_.instance());
     Primitive primitive = leaf_.primitive();
     if (leaf_.hasNormals()) {
-        std::vector<TriangleNormals>& normals = prepared_.scene.triangleNormals;
+        std::vector<TriangleCorners>& normals = prepared_.scene.triangleCorners;
         primitive.shape = static_cast<uint>(normals.size());
         normals.push_back(leaf_.normals());
     }

@@ -55,7 +55,7 @@ std::string textOf(const vec3& v)
     return fmt::format("[{},{},{}]", textOf(v.x), textOf(v.y), textOf(v.z));
 }
 
-void printLeaf(TextFile& file, const Primitive& p, std::span<const TriangleNormals> normals)
+void printLeaf(TextFile& file, const Primitive& p, std::span<const TriangleCorners> normals)
 {
     if (p.shape == SHAPE_SPHERE) {
         file.print(
@@ -67,7 +67,7 @@ void printLeaf(TextFile& file, const Primitive& p, std::span<const TriangleNorma
         "{{\"type\":\"triangle\",\"number\":{},\"material\":{},\"p0\":{},\"p1\":{},\"p2\":{}",
         p.number, p.material, textOf(p.p0), textOf(p.p1), textOf(p.p2));
     if (p.shape != SHAPE_FLAT) {
-        const TriangleNormals& n = normals[p.shape];
+        const TriangleCorners& n = normals[p.shape];
         file.print(",\"normals\":[{},{},{}]", textOf(n.n0), textOf(n.n1), textOf(n.n2));
     }
     file.print("}}");
@@ -80,7 +80,7 @@ void printLeaves(TextFile& file, uint ref, const DeviceScene& scene)
     const uint count = (ref & (MAX_LEAF_SIZE - 1)) + 1;
     for (uint i = 0; i < count; i++) {
         if (i > 0) file.print(",\n");
-        printLeaf(file, scene.primitives[first + i], scene.triangleNormals);
+        printLeaf(file, scene.primitives[first + i], scene.triangleCorners);
     }
 }
 

@@ -199,10 +199,10 @@ bool TreeLeaf::hasNormals() const
     return has(Key::normals);
 }
 
-TriangleNormals TreeLeaf::normals() const
+TriangleCorners TreeLeaf::normals() const
 {
     constexpr size_t key = Key::normals;
-    return {vectorOf(key, 0), 0, vectorOf(key, 1), 0, vectorOf(key, 2), 0};
+    return {vectorOf(key, 0), 0, vectorOf(key, 1), 0, vectorOf(key, 2), 0, 0, 0, 0, 0};
 }
 
 }  // namespace sahl

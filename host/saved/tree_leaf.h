@@ -36,7 +36,7 @@ public:
     InstanceLeaf instance() const;
     Primitive primitive() const;  ///< a triangle as one without normals of its own
     bool hasNormals() const;
-    TriangleNormals normals() const;
+    TriangleCorners normals() const;
 
 private:
     static constexpr size_t MAX_KEYS = 15;

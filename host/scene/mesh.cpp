@@ -102,9 +102,9 @@ uint32_t addNormals(Scene& scene, const std::array<vec3, 3>& corners, const vec3
 {
     if (isZero(corners[0]) && isZero(corners[1]) && isZero(corners[2])) return SHAPE_FLAT;
     auto orGeometric = [&](const vec3& n) { return isZero(n) ? geometric : n; };
-    auto index = static_cast<uint32_t>(scene.triangleNormals.size());
-    scene.triangleNormals.push_back(
-        {orGeometric(corners[0]), 0, orGeometric(corners[1]), 0, orGeometric(corners[2]), 0});
+    auto index = static_cast<uint32_t>(scene.triangleCorners.size());
+    scene.triangleCorners.push_back(
+        {orGeometric(corners[0]), 0, orGeometric(corners[1]), 0, orGeometric(corners[2]), 0, 0, 0, 0, 0});
     return index;
 }
 

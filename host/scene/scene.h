@@ -34,6 +34,10 @@ struct RenderSettings {
     uint32_t maxBounces = 8;
     uint32_t seed = 0;
     uint32_t integrator = INTEGRATOR_PATH;
+    uint32_t samplerKind = SAMPLER_INDEPENDENT;
+    uint32_t rouletteDepth = NO_ROULETTE;  ///< scatterings after which paths end by chance
+    float clampIndirect = 0;               ///< see Frame; 0: nothing is clamped
+    uint32_t lightSampling = LIGHTS_MIS;
     bool jitter = true;  ///< samples spread over the pixel rather than all through its centre
     uint32_t shading = SHADING_TERMS;  ///< SHADING_* bits: terms, shadows and normals
     vec3 ambient = vec3(0.1f);         ///< for phong: radiance from everywhere [W m^-2 sr^-1]
@@ -78,10 +82,12 @@ struct Scene {
     std::vector<std::vector<Primitive>> objects;  ///< that instances share; in spaces of their own,
                                                   ///< objects[k][i].number == i
     std::vector<Placement> instances;
-    std::vector<TriangleNormals> triangleNormals;
+    std::vector<TriangleCorners> triangleCorners;
     std::vector<Material> materials;
     std::vector<std::string> materialNames;  ///< of materials, for messages
     std::vector<Light> lights;
+    std::vector<Texture> textures;
+    std::vector<uint32_t> textureTexels;  ///< of all textures, RGBA8, red lowest
     Probe probe = plainProbe(0, 0, PROBE_LATLONG, FILTER_BILINEAR);  ///< lights the scene
     std::optional<Probe> background;  ///< what the camera sees behind the scene, if not the probe
     std::vector<vec4> probeTexels;    ///< of both

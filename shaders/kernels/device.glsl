@@ -31,9 +31,9 @@ layout(std140, set = 0, binding = BINDING_FRAME) uniform FrameBlock
 // 16 bytes an element, whatever the struct.
 SCENE_BUFFER(BINDING_NODES, nodeWords);
 SCENE_BUFFER(BINDING_PRIMITIVES, primitiveWords);
-SCENE_BUFFER(BINDING_NORMALS, normalWords);
+SCENE_BUFFER(BINDING_CORNERS, cornerWords);
 SCENE_BUFFER(BINDING_MATERIALS, materialWords);
-SCENE_BUFFER(BINDING_LIGHTS, lightWords);
+SCENE_BUFFER(BINDING_TABLES, tableWords);
 SCENE_BUFFER(BINDING_PROBE, probeWords);
 layout(set = 0, binding = BINDING_INSTANCES) uniform utextureBuffer instanceWords;
 
@@ -56,36 +56,60 @@ Primitive loadPrimitive(uint index)
                      uintBitsToFloat(c.xyz), c.w);
 }
 
-TriangleNormals loadNormals(uint index)
+TriangleCorners loadCorners(uint index)
 {
-    uvec4 a = FETCH(normalWords, index * 3u);
-    uvec4 b = FETCH(normalWords, index * 3u + 1u);
-    uvec4 c = FETCH(normalWords, index * 3u + 2u);
-    return TriangleNormals(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w,
-                           uintBitsToFloat(c.xyz), c.w);
+    uvec4 a = FETCH(cornerWords, index * 4u);
+    uvec4 b = FETCH(cornerWords, index * 4u + 1u);
+    uvec4 c = FETCH(cornerWords, index * 4u + 2u);
+    uvec4 d = FETCH(cornerWords, index * 4u + 3u);
+    return TriangleCorners(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz),
+                           uintBitsToFloat(b.w), uintBitsToFloat(c.xyz), uintBitsToFloat(c.w),
+                           uintBitsToFloat(d.x), uintBitsToFloat(d.y), uintBitsToFloat(d.z), d.w);
 }
 
 Material loadMaterial(uint index)
 {
-    uvec4 a = FETCH(materialWords, index * 6u);
-    uvec4 b = FETCH(materialWords, index * 6u + 1u);
-    uvec4 c = FETCH(materialWords, index * 6u + 2u);
-    uvec4 d = FETCH(materialWords, index * 6u + 3u);
-    uvec4 e = FETCH(materialWords, index * 6u + 4u);
-    uvec4 f = FETCH(materialWords, index * 6u + 5u);
+    uvec4 a = FETCH(materialWords, index * 8u);
+    uvec4 b = FETCH(materialWords, index * 8u + 1u);
+    uvec4 c = FETCH(materialWords, index * 8u + 2u);
+    uvec4 d = FETCH(materialWords, index * 8u + 3u);
+    uvec4 e = FETCH(materialWords, index * 8u + 4u);
+    uvec4 f = FETCH(materialWords, index * 8u + 5u);
+    uvec4 g = FETCH(materialWords, index * 8u + 6u);
+    uvec4 h = FETCH(materialWords, index * 8u + 7u);
     return Material(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), b.w,
                     uintBitsToFloat(c.xyz), uintBitsToFloat(c.w), uintBitsToFloat(d.xyz),
                     uintBitsToFloat(d.w), uintBitsToFloat(e.xyz), uintBitsToFloat(e.w),
-                    uintBitsToFloat(f.xyz), f.w);
+                    uintBitsToFloat(f.xyz), f.w, uintBitsToFloat(g.x), uintBitsToFloat(g.y),
+                    uintBitsToFloat(g.z), uintBitsToFloat(g.w), h.x, h.y, h.z, h.w);
 }
 
 Light loadLight(uint index)
 {
-    uvec4 a = FETCH(lightWords, index * 3u);
-    uvec4 b = FETCH(lightWords, index * 3u + 1u);
-    uvec4 c = FETCH(lightWords, index * 3u + 2u);
+    uint at = frame.lightsAt + index * 4u;
+    uvec4 a = FETCH(tableWords, at);
+    uvec4 b = FETCH(tableWords, at + 1u);
+    uvec4 c = FETCH(tableWords, at + 2u);
+    uvec4 d = FETCH(tableWords, at + 3u);
     return Light(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), uintBitsToFloat(b.w),
-                 uintBitsToFloat(c.xyz), uintBitsToFloat(c.w));
+                 uintBitsToFloat(c.xyz), uintBitsToFloat(c.w), uintBitsToFloat(d.x), d.y, d.z, d.w);
+}
+
+AliasEntry loadAliasEntry(uint index)
+{
+    uvec4 two = FETCH(tableWords, frame.aliasAt + (index >> 1u));
+    return (index & 1u) == 0u ? AliasEntry(two.x, two.y) : AliasEntry(two.z, two.w);
+}
+
+Texture loadTexture(uint index)
+{
+    uvec4 a = FETCH(tableWords, frame.texturesAt + index);
+    return Texture(a.x, a.y, a.z, a.w);
+}
+
+uint loadTextureTexel(uint index)
+{
+    return FETCH(tableWords, frame.textureTexelsAt + (index >> 2u))[index & 3u];
 }
 
 ObjectInstance loadInstance(uint index)
@@ -110,4 +134,9 @@ ObjectInstance loadInstance(uint index)
 vec3 loadProbeTexel(uint index)
 {
     return uintBitsToFloat(FETCH(probeWords, index).xyz);
+}
+
+float loadProbeWeight(uint index)
+{
+    return uintBitsToFloat(FETCH(probeWords, index).w);
 }

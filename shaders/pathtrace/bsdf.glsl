@@ -4,14 +4,20 @@ CONST uint LOBE_NONE = 0u;      // nothing was sampled, the path ends
 CONST uint LOBE_DIFFUSE = 1u;
 CONST uint LOBE_REFLECT = 2u;   // a mirror direction: no other sampling can find it
 CONST uint LOBE_TRANSMIT = 3u;  // through the surface, likewise
+CONST uint LOBE_GLOSSY_REFLECT = 4u;   // by a rough surface
+CONST uint LOBE_GLOSSY_TRANSMIT = 5u;
 
 struct BsdfSample
 {
     vec3 wi;          // unit direction to the light
     uint lobe;        // one of LOBE_*
     vec3 weight;      // f * cosine / density
+    float pdf;        // density of wi [1/sr]; 0: not by density, a delta lobe
     float mediumEta;  // index of refraction where wi goes, by the report's rule
+    float etaScale;   // what refraction has divided radiance by: the square of the relative index
 };
+
+bool isDeltaLobe(uint lobe) { return lobe == LOBE_REFLECT || lobe == LOBE_TRANSMIT; }
 
 /// Share of a material that is diffuse: what evalBsdfCos and light sampling see of it.
 float diffuseShare(Material material)
@@ -20,13 +26,20 @@ float diffuseShare(Material material)
     return material.type == MATERIAL_REPORT ? material.diffuseWeight : 0.0f;
 }
 
-/// BSDF times the cosine of wi with the shading normal [1/sr], of the diffuse part alone: mirror
+/// Whether light from wi is on the side of the geometric surface that wo is on.
+bool onViewersSide(SurfaceInteraction isect, vec3 wo, vec3 wi)
+{
+    return dot3(wo, isect.ng) >= 0.0f && dot3(wi, isect.ng) > 0.0f;
+}
+
+/// BSDF times the cosine of wi with the shading normal [1/sr]: of all that is not a delta lobe, as mirror
 /// directions have no finite value. Lambert reflects light that arrives on the viewer's side of the
 /// geometric surface.
-vec3 evalBsdfCos(Material material, SurfaceInteraction isect, vec3 wi)
+///   wo, wi  unit directions to the viewer and to the light
+vec3 evalBsdfCos(Material material, SurfaceInteraction isect, vec3 wo, vec3 wi)
 {
     float cosine = dot3(wi, isect.ns);
-    if (!(cosine > 0.0f) || !(dot3(wi, isect.ng) > 0.0f)) return vec3(0.0f);
+    if (!(cosine > 0.0f) || !onViewersSide(isect, wo, wi)) return vec3(0.0f);
     return material.baseColor * (diffuseShare(material) * (cosine * INV_PI));
 }
 
@@ -37,12 +50,26 @@ float pdfDiffuse(SurfaceInteraction isect, vec3 wi)
     return pdfCosineHemisphere(dot3(wi, isect.ns));
 }
 
+/// Density with which sampleBsdf takes wi [1/sr]: of all that is not a delta lobe, the choice of a lobe
+/// included.
+///   wo, wi  unit directions to the viewer and to the light
+float pdfBsdf(Material material, SurfaceInteraction isect, vec3 wo, vec3 wi)
+{
+    if (!onViewersSide(isect, wo, wi)) return 0.0f;
+    if (material.type == MATERIAL_LAMBERT) return pdfDiffuse(isect, wi);
+    if (material.type != MATERIAL_REPORT) return 0.0f;
+    float sum = material.diffuseWeight + material.specularWeight;
+    if (!(sum > 0.0f)) return 0.0f;
+    return pdfDiffuse(isect, wi) * quotient(material.diffuseWeight, sum);
+}
+
 /// Samples the diffuse lobe with density pdfDiffuse. Directions under the geometric surface, which an
 /// interpolated normal can ask for, carry nothing.
 void sampleDiffuse(SurfaceInteraction isect, vec3 color, float u1, float u2, INOUT(BsdfSample) bs)
 {
     bs.wi = sampleCosineHemisphere(isect.ns, u1, u2);
-    bs.lobe = pdfDiffuse(isect, bs.wi) > 0.0f ? LOBE_DIFFUSE : LOBE_NONE;
+    bs.pdf = pdfDiffuse(isect, bs.wi);
+    bs.lobe = bs.pdf > 0.0f ? LOBE_DIFFUSE : LOBE_NONE;
     bs.weight = color;
 }
 
@@ -91,6 +118,7 @@ void sampleReportMaterial(Material material, SurfaceInteraction isect, vec3 dir,
     if (!(sum > 0.0f)) return;
     if (u.w * sum < material.diffuseWeight) {
         sampleDiffuse(isect, material.baseColor * sum, u.x, u.y, bs);
+        bs.pdf = bs.pdf * quotient(material.diffuseWeight, sum);
         return;
     }
     float far = material.eta == bs.mediumEta ? 1.0f : material.eta;
@@ -101,14 +129,16 @@ void sampleReportMaterial(Material material, SurfaceInteraction isect, vec3 dir,
 /// Samples the direction in which a path goes on.
 ///   dir        unit direction of the ray that arrived
 ///   mediumEta  index of refraction where it came from, by the report's rule
-///   u          uniform in [0,1)^4; u.z is left for the choice of a light
+///   u          uniform in [0,1)^4; u.z is spare
 BsdfSample sampleBsdf(Material material, SurfaceInteraction isect, vec3 dir, float mediumEta, vec4 u)
 {
     BsdfSample bs;
     bs.wi = vec3(0.0f);
     bs.lobe = LOBE_NONE;
     bs.weight = vec3(0.0f);
+    bs.pdf = 0.0f;
     bs.mediumEta = mediumEta;
+    bs.etaScale = 1.0f;
     if (material.type == MATERIAL_LAMBERT) {
         sampleDiffuse(isect, material.baseColor, u.x, u.y, bs);
     } else if (material.type == MATERIAL_MIRROR) {
@@ -121,6 +151,7 @@ BsdfSample sampleBsdf(Material material, SurfaceInteraction isect, vec3 dir, flo
         float eta = isect.front ? material.eta : quotient(1.0f, material.eta);
         vec3 tint = material.baseColor * quotient(1.0f, eta * eta);
         sampleFresnel(isect, dir, eta, isect.front ? material.eta : 1.0f, tint, u.x, bs);
+        if (bs.lobe == LOBE_TRANSMIT) bs.etaScale = eta * eta;
     } else {
         sampleReportMaterial(material, isect, dir, u, bs);
     }

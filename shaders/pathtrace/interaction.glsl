@@ -9,6 +9,8 @@ struct SurfaceInteraction
     vec3 ns;          // unit shading normal, on the side of ng
     bool front;       // the ray came from the front, the outside of a closed surface
     vec3 nsStored;    // the shading normal as the mesh has it, on whichever side
+    float u;          // texture coordinates, v up
+    float v;
 };
 
 /// Unit normal of the triangle's front, computed at a scale at which nothing under- or overflows.
@@ -54,7 +56,7 @@ void triangleInteraction(Primitive triangle, Traversal hit, vec3 dir, INOUT(Surf
 }
 
 /// Replaces the shading normal by that between the corners' normals.
-void interpolateNormal(TriangleNormals normals, Traversal hit, INOUT(SurfaceInteraction) isect)
+void interpolateNormal(TriangleCorners normals, Traversal hit, INOUT(SurfaceInteraction) isect)
 {
     float b0 = (1.0f - hit.b1) - hit.b2;
     vec3 ns = (normals.n0 * b0 + normals.n1 * hit.b1) + normals.n2 * hit.b2;
@@ -105,15 +107,13 @@ void placeInteraction(ObjectInstance instance, INOUT(SurfaceInteraction) isect)
 
 /// Normals at the corners of an instance's triangle: those that the triangle itself would have, were it
 /// moved to the world. (Interpolated before it is moved, a normal would lean elsewhere.)
-TriangleNormals placeNormals(ObjectInstance instance, TriangleNormals normals)
+TriangleCorners placeNormals(ObjectInstance instance, TriangleCorners normals)
 {
-    TriangleNormals placed;
+    TriangleCorners placed;
+    placed = normals;
     placed.n0 = unit(normalToWorld(instance, normals.n0));
-    placed.unused0 = 0u;
     placed.n1 = unit(normalToWorld(instance, normals.n1));
-    placed.unused1 = 0u;
     placed.n2 = unit(normalToWorld(instance, normals.n2));
-    placed.unused2 = 0u;
     return placed;
 }
 
@@ -143,7 +143,7 @@ SurfaceInteraction interactionInInstance(Primitive shape, Traversal hit, vec3 or
                                           directionToObject(instance, dir));
     placeInteraction(instance, isect);
     if (hasNormals(shape)) {
-        interpolateNormal(placeNormals(instance, loadNormals(shape.shape)), hit, isect);
+        interpolateNormal(placeNormals(instance, loadCorners(shape.shape)), hit, isect);
     }
     return isect;
 }
@@ -156,7 +156,7 @@ SurfaceInteraction interactionAt(Traversal hit, vec3 org, vec3 dir)
         return interactionInInstance(shape, hit, org, dir);
     }
     SurfaceInteraction isect = geometryAt(shape, hit, org, dir);
-    if (hasNormals(shape)) interpolateNormal(loadNormals(shape.shape), hit, isect);
+    if (hasNormals(shape)) interpolateNormal(loadCorners(shape.shape), hit, isect);
     return isect;
 }
 

@@ -32,6 +32,10 @@ PathState beginPath(uint x, uint y, uint sampleIndex)
     path.Ld = vec3(0.0f);
     path.digest = 0u;
     path.mediumEta = 1.0f;
+    path.pdf = 0.0f;
+    path.etaScale = 1.0f;
+    path.unused0 = 0u;
+    path.unused1 = 0u;
     path.hit = beginTraversal(RAY_INFINITY);
     return path;
 }
@@ -48,12 +52,15 @@ Traversal beginPathTraversal(PathState path)
 }
 
 /// Prepares a shadow ray to one light; its arrival will add path.Ld. Returns whether there is one.
-bool sampleDirectLight(Material material, SurfaceInteraction isect, float u, INOUT(PathState) path)
+///   dimension  of the vertex
+bool sampleDirectLight(Material material, SurfaceInteraction isect, uint dimension,
+                       INOUT(PathState) path)
 {
     if (frame.lightCount == 0u) return false;
-    LightSample ls = sampleLight(isect.p, u);
+    vec4 u = random4(path.pixel, path.sampleIndex, dimension + DIMENSION_LIGHT);
+    LightSample ls = sampleLight(isect.p, u.x);
     if (!(ls.distance > 0.0f)) return false;
-    vec3 f = evalBsdfCos(material, isect, ls.wi);
+    vec3 f = evalBsdfCos(material, isect, -path.dir, ls.wi);
     path.Ld = flushed3(path.beta * f * ls.Li);
     if (!(maxComponent(path.Ld) > 0.0f)) return false;
     aimShadowRay(isect, ls, path);
@@ -69,6 +76,8 @@ uint sampleNextRay(Material material, SurfaceInteraction isect, vec4 u, INOUT(Pa
     path.org = offsetOrigin(isect, bs.wi);
     path.dir = bs.wi;
     path.mediumEta = bs.mediumEta;
+    path.pdf = bs.pdf;
+    path.etaScale = path.etaScale * bs.etaScale;
     tally.indirectRays++;
     return bs.lobe;
 }
@@ -89,9 +98,9 @@ uint shadeSurface(SurfaceInteraction isect, Material material, INOUT(PathState) 
     path.phase = PHASE_ENDED;
     if (path.depth >= frame.maxBounces) return LOBE_NONE;
 
-    vec4 u = random4(path.pixel, path.sampleIndex,
-                     DIMENSION_FIRST_VERTEX + DIMENSIONS_PER_VERTEX * path.depth);
-    bool lit = sampleDirectLight(material, isect, u.z, path);
+    uint dimension = DIMENSION_FIRST_VERTEX + DIMENSIONS_PER_VERTEX * path.depth;
+    vec4 u = random4(path.pixel, path.sampleIndex, dimension);
+    bool lit = sampleDirectLight(material, isect, dimension, path);
     uint lobe = sampleNextRay(material, isect, u, path);
     path.depth++;
     if (lit) {

@@ -1,9 +1,10 @@
 // Random numbers as a function of (seed, pixel, sample, dimension): no state, integers only.
 
-// Where a path needs numbers. Each vertex has its own row of DIMENSIONS_PER_VERTEX.
+// Where a path needs numbers. Each vertex has its own: 4 for its BSDF, then 4 for a light and roulette.
 CONST uint DIMENSION_CAMERA = 0u;
 CONST uint DIMENSION_FIRST_VERTEX = 4u;
-CONST uint DIMENSIONS_PER_VERTEX = 4u;
+CONST uint DIMENSION_LIGHT = 4u;  // within a vertex
+CONST uint DIMENSIONS_PER_VERTEX = 8u;
 
 /// pcg4d of Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", JCGT 9(3), Sec. 4.2.
 uvec4 hash4(uint a, uint b, uint c, uint d)

@@ -9,9 +9,9 @@ SHARED_BEGIN
 // Read-only scene data: texel buffers (RGBA32UI) or storage buffers, see kernels/accessors.glsl.
 SHARED_CONST uint BINDING_NODES = 0u;
 SHARED_CONST uint BINDING_PRIMITIVES = 1u;
-SHARED_CONST uint BINDING_NORMALS = 2u;
+SHARED_CONST uint BINDING_CORNERS = 2u;
 SHARED_CONST uint BINDING_MATERIALS = 3u;
-SHARED_CONST uint BINDING_LIGHTS = 4u;
+SHARED_CONST uint BINDING_TABLES = 4u;      // lights, aliases, textures: Frame says where each begins
 SHARED_CONST uint BINDING_PROBE = 5u;
 SHARED_CONST uint BINDING_INSTANCES = 6u;   // always a texel buffer: 8 storage buffers are enough then
 SHARED_CONST uint SCENE_BUFFER_COUNT = 7u;

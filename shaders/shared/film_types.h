@@ -97,11 +97,16 @@ struct PathState
     uint digest;
     vec3 Ld;           // what the light adds when the shadow ray arrives
     float mediumEta;   // index of refraction where the path is, by the report's rule
+    float pdf;         // density with which dir was chosen at the last vertex [1/sr]; 0: not by density
+    float etaScale;    // square of the index of refraction that beta's radiance is scaled by
+    uint unused0;
+    uint unused1;
     Traversal hit;     // INTEGRATOR_PHONG: what the camera ray met, while shadow rays walk
 };
-GPU_STRUCT_SIZE(PathState, 160);
+GPU_STRUCT_SIZE(PathState, 176);
 GPU_FIELD(PathState, Ld, 96);
-GPU_FIELD(PathState, hit, 112);
+GPU_FIELD(PathState, pdf, 112);
+GPU_FIELD(PathState, hit, 128);
 
 struct SuspendedPath
 {
@@ -117,8 +122,8 @@ struct SuspendedPath
     uint unused2;
     uint stack[MAX_SUSPENDED_STACK];
 };
-GPU_STRUCT_SIZE(SuspendedPath, 240 + 4 * 64);
-GPU_FIELD(SuspendedPath, stack, 240);
+GPU_STRUCT_SIZE(SuspendedPath, 256 + 4 * 64);
+GPU_FIELD(SuspendedPath, stack, 256);
 
 // One dispatch: up to one sample more for every pixel of a tile. Push constants.
 struct Dispatch

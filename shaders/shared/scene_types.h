@@ -23,7 +23,7 @@ SHARED_CONST uint LEAF_COUNT_BITS = 3u;
 SHARED_CONST uint MAX_LEAF_SIZE = 8u;
 SHARED_CONST uint MAX_PRIMITIVES = 0x0ffffff0u;  // so that no leaf reference equals REF_NONE
 SHARED_CONST uint MAX_STACK_SIZE = 64u;         // bound of the tree's depth
-SHARED_CONST uint SHAPE_FLAT = 0xffffffffu;    // a triangle without normals of its own
+SHARED_CONST uint SHAPE_FLAT = 0xffffffffu;    // a triangle without normals or texture coordinates
 SHARED_CONST uint SHAPE_SPHERE = 0xfffffffeu;
 SHARED_CONST uint NO_HIT = 0xffffffffu;
 SHARED_CONST uint NO_INSTANCE = 0xffffffffu;
@@ -55,23 +55,28 @@ struct Primitive
     vec3 p1;        // sphere: centre in p0, radius in p1.x [m]
     uint material;  // index in `materials`
     vec3 p2;
-    uint shape;     // triangle: index in `triangleNormals`, or SHAPE_FLAT; or SHAPE_SPHERE
+    uint shape;     // triangle: index in `triangleCorners`, or SHAPE_FLAT; or SHAPE_SPHERE
 };
 GPU_STRUCT_SIZE(Primitive, 48);
 GPU_FIELD(Primitive, number, 12);
 GPU_FIELD(Primitive, shape, 44);
 
-struct TriangleNormals
+struct TriangleCorners
 {
-    vec3 n0;        // unit shading normals at the corners, world space
-    uint unused0;
+    vec3 n0;        // unit shading normals at the corners, world space; all zero: as the geometry
+    float u0;       // texture coordinates (u, v), v up; (0, 0) where there are none
     vec3 n1;
-    uint unused1;
+    float u1;
     vec3 n2;
-    uint unused2;
+    float u2;
+    float v0;
+    float v1;
+    float v2;
+    uint unused0;
 };
-GPU_STRUCT_SIZE(TriangleNormals, 48);
-GPU_FIELD(TriangleNormals, n2, 32);
+GPU_STRUCT_SIZE(TriangleCorners, 64);
+GPU_FIELD(TriangleCorners, n2, 32);
+GPU_FIELD(TriangleCorners, v0, 48);
 
 // An object placed in the world: a tree of its own, in `nodes` and `primitives` like the world's, whose
 // primitives are numbered from 0. Several instances may share one object. A point q of the object is at
@@ -109,6 +114,8 @@ SHARED_CONST uint MATERIAL_DIELECTRIC = 2u;  // smooth glass, water: eta; baseCo
 SHARED_CONST uint MATERIAL_CONDUCTOR = 3u;   // smooth metal: conductorEta, conductorK
 SHARED_CONST uint MATERIAL_REPORT = 4u;      // the report's: weights of a diffuse and a dielectric part
 
+SHARED_CONST uint NO_TEXTURE = 0u;  // textures of a material are counted from 1
+
 struct Material
 {
     vec3 baseColor;       // linear Rec. 709, in [0,1]
@@ -124,12 +131,22 @@ struct Material
     float shininess;      // exponent of the highlight, >= 0
     vec3 ambientColor;    // share of the ambient light that is sent back, in [0,1]
     uint unused0;
+    float roughness;      // perceptual, in [0,1]: its square is GGX's alpha
+    float metallic;       // in [0,1]
+    float transmission;   // share of what is not metallic that lets light through, in [0,1]
+    float alphaCutoff;    // below this alpha there is no surface; 0: alpha is not asked for
+    uint baseColorTexture;   // number in `textures` counted from 1, or NO_TEXTURE, as the rest
+    uint roughnessTexture;   // green: roughness, blue: metallic
+    uint normalTexture;      // in tangent space
+    uint emissionTexture;
 };
-GPU_STRUCT_SIZE(Material, 96);
+GPU_STRUCT_SIZE(Material, 128);
 GPU_FIELD(Material, type, 28);
 GPU_FIELD(Material, conductorK, 48);
 GPU_FIELD(Material, shininess, 76);
 GPU_FIELD(Material, ambientColor, 80);
+GPU_FIELD(Material, roughness, 96);
+GPU_FIELD(Material, emissionTexture, 124);
 
 SHARED_CONST uint LIGHT_POINT = 0u;
 SHARED_CONST uint LIGHT_SPOT = 1u;
@@ -144,10 +161,41 @@ struct Light
     float cosOuter;   // spot: cosine of the angle beyond which there is no light
     vec3 direction;   // spot and directional: unit, the way the light goes
     float cosInner;   // spot: cosine of the angle within which the intensity is full
+    float chance;     // probability that the choice of a light takes this one
+    uint slot;        // of a shape that shines: its index in `primitives`
+    uint instance;    // and the instance that it is in, or NO_INSTANCE
+    uint unused0;
 };
-GPU_STRUCT_SIZE(Light, 48);
+GPU_STRUCT_SIZE(Light, 64);
 GPU_FIELD(Light, cosOuter, 28);
 GPU_FIELD(Light, direction, 32);
+GPU_FIELD(Light, chance, 48);
+
+// One of n things is chosen by 32 random bits r: the high word of r * n is k, and the low word says
+// whether it is k itself or its alias. Two entries are 16 bytes.
+// Walker 1974, "New fast method for generating discrete random numbers with arbitrary frequency
+// distributions", Electronics Letters 10(8).
+struct AliasEntry
+{
+    uint threshold;  // k is taken where the low word is less than this; 0xffffffff: always
+    uint alias;
+};
+GPU_STRUCT_SIZE(AliasEntry, 8);
+
+SHARED_CONST uint TEXTURE_SRGB = 1u;     // red, green and blue are encoded
+SHARED_CONST uint TEXTURE_CLAMP_S = 2u;  // rather than repeated
+SHARED_CONST uint TEXTURE_CLAMP_T = 4u;
+SHARED_CONST uint TEXTURE_NEAREST = 8u;  // rather than bilinear
+
+// A picture of RGBA8 texels, a uint each with red lowest, top row first.
+struct Texture
+{
+    uint firstTexel;  // in the buffer of texture texels
+    uint width;
+    uint height;
+    uint flags;       // TEXTURE_* bits
+};
+GPU_STRUCT_SIZE(Texture, 16);
 
 SHARED_CONST uint CAMERA_PERSPECTIVE = 0u;
 SHARED_CONST uint CAMERA_ORTHOGRAPHIC = 1u;
@@ -180,7 +228,8 @@ SHARED_CONST uint PROBE_ANGULAR = 1u;  // Debevec's angular map: centre -Z, rim 
 SHARED_CONST uint FILTER_NEAREST = 0u;
 SHARED_CONST uint FILTER_BILINEAR = 1u;
 
-// Texels of all probes are one buffer of vec4 (RGB radiance, unused), top rows first.
+// Texels of all probes are one buffer of vec4 (RGB radiance, and the weight by which light sampling
+// chooses the texel), top rows first.
 struct Probe
 {
     uint width;
@@ -196,6 +245,16 @@ struct Probe
 };
 GPU_STRUCT_SIZE(Probe, 64);
 GPU_FIELD(Probe, firstTexel, 28);
+
+SHARED_CONST uint SAMPLER_INDEPENDENT = 0u;
+SHARED_CONST uint SAMPLER_SOBOL = 1u;
+
+SHARED_CONST uint NO_ROULETTE = 0xffffffffu;
+
+// Which of its two ways of finding a light a path uses where both could.
+SHARED_CONST uint LIGHTS_MIS = 0u;        // both, weighted
+SHARED_CONST uint LIGHTS_ONLY = 1u;       // shadow rays
+SHARED_CONST uint LIGHTS_BSDF_ONLY = 2u;  // what scattered rays run into
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_PHONG = 1u;  // local shading by the lights alone
@@ -224,11 +283,25 @@ struct Frame
     uint jitter;         // 1: samples spread over the pixel; 0: all go through its centre
     vec3 ambient;        // INTEGRATOR_PHONG: radiance that arrives from everywhere [W m^-2 sr^-1]
     uint shading;        // SHADING_* bits
+    uint samplerKind;       // one of SAMPLER_*
+    uint rouletteDepth;  // scatterings after which paths end by chance, or NO_ROULETTE
+    float clampIndirect; // largest luminance that one contribution adds after a scattering; 0: any
+    uint lightSampling;  // one of LIGHTS_*
+    uint choiceCount;    // lights that the choice of a light is among
+    float lightPerPower; // 1 / sum of their weights
+    float probeChance;   // probability that the choice takes the probe
+    uint unused0;
+    uint lightsAt;       // where parts of `tables` begin [16 bytes]; the device's own affair
+    uint aliasAt;
+    uint texturesAt;
+    uint textureTexelsAt;
 };
-GPU_STRUCT_SIZE(Frame, 272);
+GPU_STRUCT_SIZE(Frame, 320);
 GPU_FIELD(Frame, probe, 96);
 GPU_FIELD(Frame, rootRef, 240);
 GPU_FIELD(Frame, shading, 268);
+GPU_FIELD(Frame, lightSampling, 284);
+GPU_FIELD(Frame, textureTexelsAt, 316);
 
 SHARED_END
 

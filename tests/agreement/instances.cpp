@@ -108,8 +108,8 @@ TEST(Instances, lookLikeTheMeshMovedToTheWorld)
         const Bvh two = placedAlone(object.primitives, placement);
         const Bvh one = buildBvh(flat.primitives, BvhBuild::sweep, 1);
         auto placed = kernelFor<ORDER_NEAR_FIRST>(two), moved = kernelFor<ORDER_NEAR_FIRST>(one);
-        placed.triangleNormals = object.triangleNormals;
-        moved.triangleNormals = flat.triangleNormals;
+        placed.triangleCorners = object.triangleCorners;
+        moved.triangleCorners = flat.triangleCorners;
         for (int k = 0; k < 50; k++) {
             const vec3 from = placedPoint(placement, random.direction() * 4.0f);
             const vec3 to = placedPoint(placement, random.inCube(0.5f));

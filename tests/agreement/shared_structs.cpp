@@ -31,7 +31,7 @@ TEST_F(SharedStructs, areReadBackFieldByField)
     std::vector<uint32_t> expected;
     std::vector<std::vector<std::byte>> arrays = {
         numbered<BvhNode>(next, expected),    numbered<Primitive>(next, expected),
-        numbered<TriangleNormals>(next, expected), numbered<Material>(next, expected),
+        numbered<TriangleCorners>(next, expected), numbered<Material>(next, expected),
         numbered<Light>(next, expected),      numbered<Frame>(next, expected),
         numbered<PixelBlock>(next, expected), numbered<SuspendedPath>(next, expected),
         numbered<ObjectInstance>(next, expected)};

@@ -8,7 +8,7 @@
 layout(local_size_x = 1) in;
 layout(std430, binding = 0) readonly buffer Nodes { BvhNode nodes[]; };
 layout(std430, binding = 1) readonly buffer Primitives { Primitive primitives[]; };
-layout(std430, binding = 2) readonly buffer Normals { TriangleNormals normals[]; };
+layout(std430, binding = 2) readonly buffer Normals { TriangleCorners normals[]; };
 layout(std430, binding = 3) readonly buffer Materials { Material materials[]; };
 layout(std430, binding = 4) readonly buffer Lights { Light lights[]; };
 layout(std430, binding = 5) readonly buffer Frames { Frame frames[]; };
@@ -48,14 +48,18 @@ void main()
     put(n.lo0); put(n.ref0); put(n.hi0); put(n.ref1); put(n.lo1); put(n.unused0); put(n.hi1); put(n.unused1);
     Primitive t = primitives[1];
     put(t.p0); put(t.number); put(t.p1); put(t.material); put(t.p2); put(t.shape);
-    TriangleNormals s = normals[1];
-    put(s.n0); put(s.unused0); put(s.n1); put(s.unused1); put(s.n2); put(s.unused2);
+    TriangleCorners s = normals[1];
+    put(s.n0); put(s.u0); put(s.n1); put(s.u1); put(s.n2); put(s.u2);
+    put(s.v0); put(s.v1); put(s.v2); put(s.unused0);
     Material m = materials[1];
     put(m.baseColor); put(m.eta); put(m.emission); put(m.type);
     put(m.conductorEta); put(m.diffuseWeight); put(m.conductorK); put(m.specularWeight);
     put(m.specularColor); put(m.shininess); put(m.ambientColor); put(m.unused0);
+    put(m.roughness); put(m.metallic); put(m.transmission); put(m.alphaCutoff);
+    put(m.baseColorTexture); put(m.roughnessTexture); put(m.normalTexture); put(m.emissionTexture);
     Light l = lights[1];
     put(l.position); put(l.type); put(l.intensity); put(l.cosOuter); put(l.direction); put(l.cosInner);
+    put(l.chance); put(l.slot); put(l.instance); put(l.unused0);
     Frame f = frames[1];
     put(f.camera.position); put(f.camera.type); put(f.camera.right); put(f.camera.focusDistance);
     put(f.camera.down); put(f.camera.unused0); put(f.camera.forward); put(f.camera.unused1);
@@ -65,6 +69,9 @@ void main()
     put(f.width); put(f.height); put(f.seed); put(f.maxBounces);
     put(f.rootRef); put(f.lightCount); put(f.integrator); put(f.jitter);
     put(f.ambient); put(f.shading);
+    put(f.samplerKind); put(f.rouletteDepth); put(f.clampIndirect); put(f.lightSampling);
+    put(f.choiceCount); put(f.lightPerPower); put(f.probeChance); put(f.unused0);
+    put(f.lightsAt); put(f.aliasAt); put(f.texturesAt); put(f.textureTexelsAt);
     PixelBlock b = blocks[1];
     put(b.sum); put(b.sumY2); put(b.digest); put(b.samplesDone); put(b.status); put(b.badSamples);
     put(b.indirectRays); put(b.shadowRays); put(b.boxTests); put(b.primitiveTests);
@@ -72,6 +79,7 @@ void main()
     PathState p = paths[1].path;
     put(p.org); put(p.phase); put(p.dir); put(p.depth); put(p.beta); put(p.pixel); put(p.L); put(p.sampleIndex);
     put(p.shadowOrg); put(p.shadowTMax); put(p.shadowDir); put(p.digest); put(p.Ld); put(p.mediumEta);
+    put(p.pdf); put(p.etaScale); put(p.unused0); put(p.unused1);
     put(p.hit);
     put(paths[1].traversal);
     put(paths[1].indirectRays); put(paths[1].shadowRays); put(paths[1].boxTests); put(paths[1].primitiveTests);

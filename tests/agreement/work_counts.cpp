@@ -86,7 +86,7 @@ Kernel<> kernelOf(const PreparedScene& prepared)
     Kernel<> kernel = {};
     kernel.nodes = scene.nodes;
     kernel.primitives = scene.primitives;
-    kernel.triangleNormals = scene.triangleNormals;
+    kernel.triangleCorners = scene.triangleCorners;
     kernel.materials = scene.materials;
     kernel.lights = scene.lights;
     kernel.probeTexels = scene.probeTexels;

@@ -18,12 +18,12 @@ void expectSound(const Scene& scene)
         const Primitive& t = scene.primitives[i];
         ASSERT_EQ(t.number, i);
         ASSERT_LT(t.material, scene.materials.size());
-        ASSERT_TRUE(t.shape == SHAPE_FLAT || t.shape < scene.triangleNormals.size());
+        ASSERT_TRUE(t.shape == SHAPE_FLAT || t.shape < scene.triangleCorners.size());
         for (const vec3& p : {t.p0, t.p1, t.p2}) {
             ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
         }
     }
-    for (const TriangleNormals& n : scene.triangleNormals) {
+    for (const TriangleCorners& n : scene.triangleCorners) {
         for (const vec3& normal : {n.n0, n.n1, n.n2}) ASSERT_NEAR(glm::length(normal), 1, 1e-5);
     }
     for (const Material& m : scene.materials) {

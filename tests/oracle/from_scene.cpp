@@ -104,7 +104,7 @@ textbook::Camera cameraOf(const Camera& camera)
 }
 
 void addPrimitive(textbook::World& world, const Primitive& primitive,
-                  const std::vector<TriangleNormals>& normals)
+                  const std::vector<TriangleCorners>& normals)
 {
     if (primitive.shape == SHAPE_SPHERE) {
         world.spheres.push_back({vecOf(primitive.p0), primitive.p1.x, primitive.material});
@@ -117,7 +117,7 @@ void addPrimitive(textbook::World& world, const Primitive& primitive,
     triangle.material = primitive.material;
     triangle.smooth = primitive.shape != SHAPE_FLAT;
     if (triangle.smooth) {
-        const TriangleNormals& n = normals.at(primitive.shape);
+        const TriangleCorners& n = normals.at(primitive.shape);
         triangle.normal[0] = vecOf(n.n0);
         triangle.normal[1] = vecOf(n.n1);
         triangle.normal[2] = vecOf(n.n2);
@@ -143,7 +143,7 @@ void addInstance(textbook::World& world, const Placement& placement, const Scene
 {
     textbook::World object;
     for (const Primitive& primitive : scene.objects.at(placement.object)) {
-        addPrimitive(object, primitive, scene.triangleNormals);
+        addPrimitive(object, primitive, scene.triangleCorners);
     }
     const bool repainted = placement.material != NO_MATERIAL;
     const bool mirrors = glm::determinant(placement.linear) < 0;
@@ -176,7 +176,7 @@ textbook::World textbookWorld(const Scene& scene)
 {
     textbook::World world;
     for (const Primitive& primitive : scene.primitives) {
-        addPrimitive(world, primitive, scene.triangleNormals);
+        addPrimitive(world, primitive, scene.triangleCorners);
     }
     for (const Placement& placement : scene.instances) addInstance(world, placement, scene);
     for (const Material& material : scene.materials)

@@ -89,7 +89,7 @@ Scene leaning(uint type, double degrees)
 
 void leanMore(Scene& scene, float by)
 {
-    for (TriangleNormals& normals : scene.triangleNormals) {
+    for (TriangleCorners& normals : scene.triangleCorners) {
         for (vec3* n : {&normals.n0, &normals.n1, &normals.n2}) {
             const double angle = std::atan2(double{n->x}, double{n->y}) * (1 + double{by});
             const double size = std::hypot(double{n->x}, double{n->y});

@@ -133,7 +133,7 @@ void moveScreen(Scene& scene, float by)
 void tiltNormals(Scene& scene, float by)
 {
     auto tilt = [by](vec3& n) { n = glm::normalize(n + vec3(by, 0, 0)); };
-    for (TriangleNormals& normals : scene.triangleNormals) {
+    for (TriangleCorners& normals : scene.triangleCorners) {
         tilt(normals.n0);
         tilt(normals.n1);
         tilt(normals.n2);

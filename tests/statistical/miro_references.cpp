@@ -137,7 +137,7 @@ PreparedScene bunnies(const nlohmann::json& numbers, bool instances)
     const Primitive floor = scene.primitives.back();
     scene.primitives.pop_back();
     std::vector<Primitive> bunny = std::exchange(scene.primitives, {floor});
-    const std::vector<TriangleNormals> normals = scene.triangleNormals;
+    const std::vector<TriangleCorners> normals = scene.triangleCorners;
     for (const auto& rows : numbers["instances_row_major_4x4_column_vectors"]) {
         Placement placement;
         placement.linear = linearOf(rows);
@@ -150,7 +150,7 @@ PreparedScene bunnies(const nlohmann::json& numbers, bool instances)
         for (const Primitive& t : bunny) {
             const auto corner = static_cast<uint32_t>(mesh.positions.size());
             mesh.positions.insert(mesh.positions.end(), {t.p0, t.p1, t.p2});
-            const TriangleNormals& n = normals.at(t.shape);
+            const TriangleCorners& n = normals.at(t.shape);
             mesh.normals.insert(mesh.normals.end(), {n.n0, n.n1, n.n2});
             const std::array<uint32_t, 3> corners = {corner, corner + 1, corner + 2};
             mesh.triangles.push_back({corners, corners, 0});

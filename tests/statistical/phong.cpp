@@ -305,7 +305,7 @@ Scene leaning(uint32_t shading)
     for (Primitive& primitive : scene.primitives) {
         primitive.shape = 0;
     }
-    scene.triangleNormals.push_back({off(30), 0, off(30), 0, off(30), 0});
+    scene.triangleCorners.push_back({off(30), 0, off(30), 0, off(30), 0, 0, 0, 0, 0});
     return scene;
 }
 

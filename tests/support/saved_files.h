@@ -117,8 +117,8 @@ inline void expectSameButNormals(const PreparedScene& a, const PreparedScene& b)
     for (size_t i = 0; i < p.primitives.size(); i++) {
         Primitive x = p.primitives[i], y = q.primitives[i];
         if (x.shape < SHAPE_SPHERE && y.shape < SHAPE_SPHERE) {
-            EXPECT_EQ(std::memcmp(&p.triangleNormals[x.shape], &q.triangleNormals[y.shape],
-                                  sizeof(TriangleNormals)),
+            EXPECT_EQ(std::memcmp(&p.triangleCorners[x.shape], &q.triangleCorners[y.shape],
+                                  sizeof(TriangleCorners)),
                       0)
                 << i;
             x.shape = y.shape;
@@ -130,7 +130,7 @@ inline void expectSameButNormals(const PreparedScene& a, const PreparedScene& b)
 inline void expectSame(const PreparedScene& a, const PreparedScene& b)
 {
     expectSameButNormals(a, b);
-    EXPECT_TRUE(sameBytes(a.deviceScene().triangleNormals, b.deviceScene().triangleNormals));
+    EXPECT_TRUE(sameBytes(a.deviceScene().triangleCorners, b.deviceScene().triangleCorners));
     EXPECT_TRUE(sameBytes(a.deviceScene().primitives, b.deviceScene().primitives));
 }
 

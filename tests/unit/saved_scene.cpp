@@ -22,7 +22,7 @@ TEST_F(SavedSceneTest, everyArrayAndSettingIsKeptToTheBit)
 {
     const PreparedScene original = prepareText(richScene());
     ASSERT_GT(original.bvh.nodes.size(), 20u);
-    ASSERT_GT(original.scene.triangleNormals.size(), 20u);
+    ASSERT_GT(original.scene.triangleCorners.size(), 20u);
     expectSame(savedAndLoaded(original), original);
 }
 
@@ -38,7 +38,7 @@ TEST_F(SavedSceneTest, arraysLieInTheFile)
     const DeviceScene scene = loaded.deviceScene();
     EXPECT_TRUE(liesInFile(scene.nodes));
     EXPECT_TRUE(liesInFile(scene.primitives));
-    EXPECT_TRUE(liesInFile(scene.triangleNormals));
+    EXPECT_TRUE(liesInFile(scene.triangleCorners));
     EXPECT_TRUE(liesInFile(scene.materials));
     EXPECT_TRUE(liesInFile(scene.lights));
     EXPECT_TRUE(liesInFile(scene.probeTexels));

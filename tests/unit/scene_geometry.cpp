@@ -160,7 +160,7 @@ TEST(AppendMesh, normalsStayPerpendicularUnderNonUniformScale)
 {
     Scene scene;
     appendMesh(scene, slopingTriangle(), scaling({3, 1, 1}), std::vector<uint32_t>{0}, "mesh");
-    const vec3 n = scene.triangleNormals.at(0).n0;
+    const vec3 n = scene.triangleCorners.at(0).n0;
     const vec3 facet = facetNormal(scene.primitives.at(0));
     EXPECT_NEAR(glm::length(n - facet), 0, 1e-6);
     EXPECT_NEAR(n.x * 3, n.y, 1e-6);
@@ -172,7 +172,7 @@ TEST(AppendMesh, mirroringKeepsFrontsInFront)
     appendMesh(scene, slopingTriangle(), scaling({-1, 1, 1}), std::vector<uint32_t>{0}, "mesh");
     const vec3 expected = glm::normalize(vec3(-1, 1, 0));
     EXPECT_NEAR(glm::length(facetNormal(scene.primitives.at(0)) - expected), 0, 1e-6);
-    EXPECT_NEAR(glm::length(scene.triangleNormals.at(0).n2 - expected), 0, 1e-6);
+    EXPECT_NEAR(glm::length(scene.triangleCorners.at(0).n2 - expected), 0, 1e-6);
     EXPECT_EQ(scene.primitives[0].p0, vec3(-1, 0, 0));
 }
 

@@ -54,7 +54,7 @@ TEST(SceneHash, everyPartOfTheScene_changesIt)
     const std::function<void(Scene&)> changes[] = {
         [](Scene& scene) { scene.primitives[5].p0.x += 1e-6f; },
         [](Scene& scene) { scene.primitives[5].material ^= 1; },
-        [](Scene& scene) { scene.triangleNormals[3].n1.y *= 0.5f; },
+        [](Scene& scene) { scene.triangleCorners[3].n1.y *= 0.5f; },
         [](Scene& scene) { scene.materials[0].baseColor.z *= 0.5f; },
         [](Scene& scene) { scene.lights[0].intensity.x *= 2; },
         [](Scene& scene) { scene.lights.push_back(scene.lights[0]); },

@@ -36,7 +36,7 @@ TEST(Obj, readsEveryWayToWriteAFace)
         EXPECT_EQ(scene.primitives[0].p1, vec3(1, 0, 0)) << face;
     }
     const Scene normals = loadObj(head + "f 1//1 2//1 3//-1");
-    EXPECT_EQ(normals.triangleNormals.at(0).n0, vec3(0, 0, 1));
+    EXPECT_EQ(normals.triangleCorners.at(0).n0, vec3(0, 0, 1));
 }
 
 TEST(Obj, facesMayStandBeforeTheirVertices)
@@ -167,7 +167,7 @@ TEST(Obj, normalsOfTheFileAreNormalisedAndBadOnesBecomeTheFacets)
     Scene scene;
     warningsOf(
         [&] { scene = loadObj(TRIANGLE + "vn 0 3 4\nvn nan 0 0\nvn 0 0 0\nf 1//1 2//2 3//3\n"); });
-    const TriangleNormals& n = scene.triangleNormals.at(0);
+    const TriangleCorners& n = scene.triangleCorners.at(0);
     EXPECT_EQ(n.n0, vec3(0, 0.6f, 0.8f));
     EXPECT_EQ(n.n1, vec3(0, 0, 1));
     EXPECT_EQ(n.n2, vec3(0, 0, 1));
@@ -180,16 +180,16 @@ TEST(Obj, smoothNormalsAreTheMeanOfTheFacetsByAreaAcrossSeams)
         "v 0 0 0\nv 0 0 1\nv 1 0 1\nv 1 0 0\nv 0 0 0\nv 0 0 1\nv 0 1 1\nv 0 1 0\n"
         "f 1 2 3 4\nf 5 8 7 6\n";
     SceneOptions options;
-    EXPECT_TRUE(loadObj(roof, options).triangleNormals.empty());
+    EXPECT_TRUE(loadObj(roof, options).triangleCorners.empty());
     options.smoothNormals = true;
     const Scene scene = loadObj(roof, options);
-    ASSERT_EQ(scene.triangleNormals.size(), 4u);
+    ASSERT_EQ(scene.triangleCorners.size(), 4u);
     // At corner 1 both triangles of each square meet; at corner 2 one of each.
     const float d = 0.70710678f;
-    EXPECT_NEAR(scene.triangleNormals[0].n0.x, d, 1e-7);
-    EXPECT_NEAR(scene.triangleNormals[0].n0.y, d, 1e-7);
-    EXPECT_EQ(scene.triangleNormals[0].n0, scene.triangleNormals[2].n0);
-    EXPECT_EQ(scene.triangleNormals[0].n2, vec3(0, 1, 0));
+    EXPECT_NEAR(scene.triangleCorners[0].n0.x, d, 1e-7);
+    EXPECT_NEAR(scene.triangleCorners[0].n0.y, d, 1e-7);
+    EXPECT_EQ(scene.triangleCorners[0].n0, scene.triangleCorners[2].n0);
+    EXPECT_EQ(scene.triangleCorners[0].n2, vec3(0, 1, 0));
 }
 
 TEST(Mtl, diffuseBecomesBaseColorAndEmissionIsKept)

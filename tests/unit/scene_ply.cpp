@@ -134,9 +134,9 @@ TEST(Ply, normalsOfTheFileAreUsedAndBadOnesBecomeTheFacets)
                 format, elements,
                 {vertex(3, 4, 0, 0), vertex(NAN, 0, 1, 0), vertex(0, 0, 0, 1), face({0, 1, 2})}));
         });
-        EXPECT_EQ(scene.triangleNormals.at(0).n0, vec3(0, 0.6f, 0.8f));
-        EXPECT_EQ(scene.triangleNormals.at(0).n1, vec3(0, 0, 1));
-        EXPECT_EQ(scene.triangleNormals.at(0).n2, vec3(0, 0, 1));
+        EXPECT_EQ(scene.triangleCorners.at(0).n0, vec3(0, 0.6f, 0.8f));
+        EXPECT_EQ(scene.triangleCorners.at(0).n1, vec3(0, 0, 1));
+        EXPECT_EQ(scene.triangleCorners.at(0).n2, vec3(0, 0, 1));
         EXPECT_CONTAINS(warning, "2 normals have no direction");
     }
 }
@@ -342,7 +342,7 @@ TEST(Ply, isAShapeOfScenesWithMaterialAndSmoothNormals)
     Scene scene;
     warningsOf([&] { scene = files.load("s.json"); });
     ASSERT_EQ(scene.primitives.size(), 4u);
-    EXPECT_EQ(scene.triangleNormals.size(), 2u);
+    EXPECT_EQ(scene.triangleCorners.size(), 2u);
     EXPECT_EQ(scene.materials.at(scene.primitives[0].material).baseColor, vec3(1, 0, 0));
     EXPECT_EQ(scene.primitives[2].p1, vec3(2, 0, 0));
     EXPECT_EQ(scene.materials.at(scene.primitives[2].material).baseColor, vec3(0.7f));

@@ -67,7 +67,7 @@ TEST(Teapot, hasNoDegenerateTrianglesAndNormalsOfTheSurface)
         EXPECT_EQ(scene.droppedTriangles, 0u);
         for (const Primitive& t : scene.primitives) {
             const vec3 facet = glm::normalize(glm::cross(t.p1 - t.p0, t.p2 - t.p0));
-            const TriangleNormals& normals = scene.triangleNormals.at(t.shape);
+            const TriangleCorners& normals = scene.triangleCorners.at(t.shape);
             for (const vec3& normal : {normals.n0, normals.n1, normals.n2}) {
                 EXPECT_NEAR(glm::length(normal), 1, 1e-6);
                 // Smooth normals lie close to the facets once these are small.
