@@ -1,8 +1,8 @@
 // Pictures from files of every kind that a comparison takes.
 #include "compare/compare.h"
-#include "compare/display.h"
 #include "image/exr_layers.h"
 #include "image/png_read.h"
+#include "image/tone_map.h"
 #include "util/error.h"
 
 #include <algorithm>

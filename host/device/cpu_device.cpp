@@ -162,7 +162,8 @@ public:
         statistics_.sceneBytes = scene.nodes.size_bytes() + scene.primitives.size_bytes() +
                                  scene.triangleCorners.size_bytes() + scene.materials.size_bytes() +
                                  scene.lights.size_bytes() + scene.probeTexels.size_bytes() +
-                                 scene.instances.size_bytes();
+                                 scene.instances.size_bytes() + scene.textures.size_bytes() +
+                                 scene.textureTexels.size_bytes();
     }
 
     void render(const TileRequest& tile, std::span<PixelBlock> blocks) override

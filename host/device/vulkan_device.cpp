@@ -1,6 +1,7 @@
 // The Device that runs the path tracing kernels on Vulkan.
 #include "device/bounded_work.h"
 #include "device/exact_math.h"
+#include "device/scene_features.h"
 #include "device/vulkan_adaptive.h"
 #include "device/vulkan_limits.h"
 #include "device/vulkan_scene.h"
@@ -57,7 +58,7 @@ public:
 private:
     ComputePipeline makePipeline(const std::string& kernel, uint32_t bindingCount,
                                  uint32_t pushConstantBytes = sizeof(Dispatch)) const;
-    void preparePipeline(bool texel, bool instances, uint32_t stackSize);
+    void preparePipeline(bool texel, const SceneFeatures& features, uint32_t stackSize);
     void prepareTileBuffers(size_t pixels);
     void prepareFirstHits(size_t pixels);
     void bindAll(ComputePipeline& pipeline);
@@ -76,7 +77,7 @@ private:
     ComputePipeline firstHitsPipeline_;          // made when first asked for
     const ComputePipeline* active_ = nullptr;    // the one of the two that dispatches use
     bool pipelineTexel_ = false;
-    bool pipelineInstances_ = false;
+    SceneFeatures pipelineFeatures_;
     uint32_t pipelineStack_ = 0;  // 0: no pipeline yet
     std::unique_ptr<VulkanScene> scene_;
     Buffer pixels_, suspended_;   // as large as the largest tile so far
@@ -110,7 +111,7 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     auto start = std::chrono::steady_clock::now();
     auto uploaded = std::make_unique<VulkanScene>(uploadScene(*context_, scene, options_.buffers));
     statistics_.uploadSeconds += secondsSince(start);
-    preparePipeline(uploaded->texel, !scene.instances.empty(), stackSize);
+    preparePipeline(uploaded->texel, featuresOf(scene), stackSize);
     scene_ = std::move(uploaded);
     statistics_.sceneBytes = scene_->bytes;
     statistics_.texelBuffers = scene_->texel;
@@ -136,17 +137,18 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     request.specialisation[SPEC_STACK_SIZE] = pipelineStack_;
     request.specialisation[SPEC_ORDER] = options_.traversalOrder;
     request.specialisation[SPEC_EXACT_MATH] = statistics_.exactMath ? 1 : 0;
-    request.specialisation[SPEC_INSTANCES] = pipelineInstances_ ? 1 : 0;
+    request.specialisation[SPEC_INSTANCES] = pipelineFeatures_.instances ? 1 : 0;
+    request.specialisation[SPEC_TEXTURES] = pipelineFeatures_.textures ? 1 : 0;
+    request.specialisation[SPEC_CUTOUTS] = pipelineFeatures_.cutouts ? 1 : 0;
     return createComputePipeline(*context_, request);
 }
 
-void VulkanDevice::preparePipeline(bool texel, bool instances, uint32_t stackSize)
+void VulkanDevice::preparePipeline(bool texel, const SceneFeatures& features, uint32_t stackSize)
 {
-    if (pipelineStack_ == stackSize && pipelineTexel_ == texel && pipelineInstances_ == instances)
-        return;
+    if (pipelineStack_ == stackSize && pipelineTexel_ == texel && pipelineFeatures_ == features) return;
     pipelineStack_ = stackSize;
     pipelineTexel_ = texel;
-    pipelineInstances_ = instances;
+    pipelineFeatures_ = features;
     firstHitsPipeline_ = {};
     firstHitsBound_ = false;
     adaptive_ = {};

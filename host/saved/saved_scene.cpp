@@ -33,6 +33,8 @@ void forEachArray(SavedArrays& arrays, Action action)
     action("materials", arrays.device.materials);
     action("lights", arrays.device.lights);
     action("texels", arrays.device.probeTexels);
+    action("textures", arrays.device.textures);
+    action("textureTexels", arrays.device.textureTexels);
     action("instances", arrays.device.instances);
     action("objectStarts", arrays.objectStarts);
 }

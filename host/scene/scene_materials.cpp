@@ -70,15 +70,17 @@ void readReportMaterial(const JsonObject& object, Material& material)
     }
 }
 
-Material readMaterial(const JsonDocument& document, const JsonNode& node, const std::string& what)
+Material readMaterial(SceneReading& reading, const JsonNode& node, const std::string& what)
 {
+    const JsonDocument& document = reading.document;
     const std::string type =
         readType(document, node, what, {"lambert", "mirror", "dielectric", "conductor", "report"});
     const JsonObject object(document, node, what, type + "Material");
-    const bool coloured = type == "lambert" || type == "report";
+    const bool coloured = (type == "lambert" || type == "report") && !object.has("baseColorTexture");
     Material material = {};
     material.eta = 1;
-    material.emission = toFloat(object.vector("emission", {}, LIGHT_RANGE));
+    const glm::dvec3 emission(object.has("emissionTexture") ? 1 : 0);
+    material.emission = toFloat(object.vector("emission", emission, LIGHT_RANGE));
     material.baseColor = vec3(1);
     if (type != "conductor") {
         material.baseColor =
@@ -98,6 +100,7 @@ Material readMaterial(const JsonDocument& document, const JsonNode& node, const 
         material.type = MATERIAL_REPORT;
         readReportMaterial(object, material);
     }
+    readMaterialTextures(reading, object, material);
     readPhongMaterial(object, material);
     return material;
 }
@@ -116,7 +119,7 @@ void readMaterials(SceneReading& reading, const JsonNode& node)
             throw badInput("{}: a material needs a name", document.where(node.keys[i].offset));
         const std::string what = fmt::format("material \"{}\"", name);
         reading.materials[name] =
-            addMaterial(reading.scene, name, readMaterial(document, node.items[i], what));
+            addMaterial(reading.scene, name, readMaterial(reading, node.items[i], what));
     }
 }
 

@@ -122,7 +122,8 @@ void shadePath(Traversal hit, INOUT(PathState) path)
         seeEnvironment(path);
     } else {
         SurfaceInteraction isect = interactionAt(hit, path.org, path.dir);
-        Material material = loadMaterial(isect.material);
+        Material material = texturedMaterial(loadMaterial(isect.material), isect.u, isect.v);
+        isect = bumpedInteraction(material, hit, isect);
         if (frame.integrator == INTEGRATOR_PHONG) {
             shadePhong(isect, material, hit, path);
         } else {

@@ -1,5 +1,5 @@
 // The path tracer, in the order in which a path meets its parts. The includer provides the buffers
-// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, TRAVERSAL_ORDER, EXACT_MATH and the macros OUT and INOUT.
+// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, TRAVERSAL_ORDER, EXACT_MATH, HAS_... and the macros OUT and INOUT.
 
 // Invocation-wide state.
 struct Tally
@@ -25,9 +25,11 @@ CONST float RAY_INFINITY = 3.0e38f;
 #include "pathtrace/camera.glsl"
 #include "pathtrace/triangle.glsl"
 #include "pathtrace/sphere.glsl"
+#include "pathtrace/texture.glsl"
 #include "pathtrace/instance.glsl"
 #include "pathtrace/traverse.glsl"
 #include "pathtrace/interaction.glsl"
+#include "pathtrace/normal_map.glsl"
 #include "pathtrace/fresnel.glsl"
 #include "pathtrace/bsdf.glsl"
 #include "pathtrace/probe.glsl"

@@ -15,7 +15,8 @@ layout(std430, binding = 5) readonly buffer Frames { Frame frames[]; };
 layout(std430, binding = 6) readonly buffer Blocks { PixelBlock blocks[]; };
 layout(std430, binding = 7) readonly buffer Paths { SuspendedPath paths[]; };
 layout(std430, binding = 8) readonly buffer Instances { ObjectInstance instances[]; };
-layout(std430, binding = 9) writeonly buffer Words { uint words[]; };
+layout(std430, binding = 9) readonly buffer Textures { Texture textures[]; };
+layout(std430, binding = 10) writeonly buffer Words { uint words[]; };
 layout(push_constant) uniform JobBlock { Dispatch job; };
 
 uint count = 0u;
@@ -89,6 +90,9 @@ void main()
     put(o.toObject0); put(o.rootRef); put(o.toObject1); put(o.firstNumber); put(o.toObject2); put(o.material);
     put(o.toWorld0); put(o.unused0); put(o.toWorld1); put(o.unused1); put(o.toWorld2); put(o.unused2);
     put(o.translation); put(o.unused3); put(o.lo); put(o.unused4); put(o.hi); put(o.unused5);
+    Texture x = textures[1];
+    put(x.firstTexel); put(x.width); put(x.height); put(x.flags); put(x.rowS); put(x.strength);
+    put(x.rowT); put(x.unused0); put(x.mean); put(x.unused1);
     put(job.tileX); put(job.tileY); put(job.tileWidth); put(job.tileHeight);
     put(job.firstSample); put(job.sampleCount); put(job.stepBudget); put(job.unused0);
 }
