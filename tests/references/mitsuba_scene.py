@@ -3,8 +3,8 @@
 import math
 
 import envmap
-import mitsuba_materials as materials
 import transforms as tr
+from mitsuba_materials import Maker, Surface, lambert
 from mitsuba_xml import Document, Unsupported, numbers
 
 BEHIND = 1e-4  # how far a black back lies behind its surface [m]
@@ -13,13 +13,18 @@ INTEGRATORS = ("path", "direct", "ptracer")  # all give the same picture
 
 
 class Reader:
-    """One file; `scene` is the result."""
+    """One file; `scene` is the result.
+      folder     for what the scene needs beside it
+      beckmann   whether GGX will do for Beckmann's distribution
+      stand_ins  what Sahl has no like of is left out if it is an emitter, and black if it is a shape;
+                 `left_out` names it, in the order of the file"""
 
-    def __init__(self, programs, path, folder):
-        self.programs, self.folder = programs, folder
+    def __init__(self, programs, path, folder, beckmann=False, stand_ins=False):
+        self.programs, self.folder, self.stand_ins = programs, folder, stand_ins
         self.document = Document(path, programs.references("mitsuba", "common"))
+        self.maker = Maker(self.document, folder, beckmann)
         self.scene = {"materials": {}, "shapes": [], "lights": []}
-        self.scene["materials"]["black"] = {"type": "lambert", "baseColor": [0, 0, 0]}
+        self.left_out = []
         for node in self.document.nodes:
             kind = getattr(self, "_" + node.tag, None)
             if kind:
@@ -66,7 +71,12 @@ class Reader:
         return math.degrees(2 * math.atan(half))
 
     def _emitter(self, node):
-        getattr(self, "_emitter_" + node.get("type"), self._no_emitter)(node)
+        try:
+            getattr(self, "_emitter_" + node.get("type"), self._no_emitter)(node)
+        except Unsupported as lack:
+            if not self.stand_ins:
+                raise
+            self.left_out.append((node, str(lack)))
 
     def _no_emitter(self, node):
         raise Unsupported(f"the emitter {node.get('type')}")
@@ -110,12 +120,18 @@ class Reader:
         if build is None:
             raise Unsupported(f"the shape {node.get('type')}")
         bsdfs = self.document.members(node, "bsdf")
-        bsdf = materials.convert(self, bsdfs[0]) if bsdfs else materials.Surface({"type": "lambert",
-                                                                                 "baseColor": [0.5] * 3})
-        emitters = self.document.members(node, "emitter")
-        if emitters:
-            bsdf.material["emission"] = materials.lamp(self, emitters[0])
-        build(node, self.document.transform(node), bsdf)
+        try:
+            surface = self.maker.surface(bsdfs[0]) if bsdfs else Surface(lambert([0.5] * 3), True)
+        except Unsupported as lack:
+            if not self.stand_ins:
+                raise
+            self.left_out.append((node, str(lack)))
+            surface = Surface(lambert([0, 0, 0]))
+        for emitter in self.document.members(node, "emitter"):
+            self.maker.add_lamp(surface, emitter)
+        build(node, self.document.transform(node), surface)
+        if node.get("id"):
+            self.scene["shapes"][-1]["name"] = node.get("id")
 
     def material(self, description):
         """The name of such a material, made where there is none yet."""
@@ -130,32 +146,29 @@ class Reader:
     def _shape_obj(self, node, matrix, surface):
         file = self.document.file(self.document.word(node, "filename", ""))
         if file.stem == "rectangle" and surface.one_sided:
-            self._back(matrix)
+            self._mesh(file, behind(matrix), surface.back(False))
+        self._mesh(file, matrix, surface.described(False))
+
+    def _mesh(self, file, matrix, material):
         self.scene["shapes"].append({"type": "mesh", "file": str(file), "smoothNormals": True,
-                                     "material": self.material(surface.material),
-                                     "transform": {"matrix": tr.flat(matrix)}})
+                                     "material": self.material(material), "transform": {"matrix": tr.flat(matrix)}})
 
     def _shape_rectangle(self, node, matrix, surface):
         if surface.one_sided:
-            self._back(matrix)
+            self._rectangle(behind(matrix), (0, 0, 1, 1), surface.back(True))
         if surface.checkers:
             for cell, material in surface.checkers.cells():
-                self._rectangle(matrix, cell, self.material(material))
+                self._rectangle(matrix, cell, material)
         else:
-            self._rectangle(matrix, (0, 0, 1, 1), self.material(surface.material))
+            self._rectangle(matrix, (0, 0, 1, 1), surface.described(True))
 
     def _rectangle(self, matrix, cell, material):
         """The part of the square from -1 to 1 whose texture coordinates are in `cell`: u0, v0, u1, v1."""
         u0, v0, u1, v1 = cell
-        self.scene["shapes"].append({"type": "rectangle", "material": material,
+        self.scene["shapes"].append({"type": "rectangle", "material": self.material(material),
                                      "corner": tr.point(matrix, [2 * u0 - 1, 2 * v0 - 1, 0]),
                                      "edgeU": tr.vector(matrix, [2 * (u1 - u0), 0, 0]),
                                      "edgeV": tr.vector(matrix, [0, 2 * (v1 - v0), 0])})
-
-    def _back(self, matrix):
-        """Their surfaces are black on the back, ours look alike on both sides: a black rectangle there."""
-        normal = tr.unit(tr.cross(tr.vector(matrix, [1, 0, 0]), tr.vector(matrix, [0, 1, 0])))
-        self._rectangle(tr.times(tr.translation(*tr.scaled(normal, -BEHIND)), matrix), (0, 0, 1, 1), "black")
 
     def _shape_sphere(self, node, matrix, surface):
         if surface.checkers:
@@ -166,13 +179,18 @@ class Reader:
     def _shape_ply(self, node, matrix, surface):
         file = self.document.file(self.document.word(node, "filename", ""))
         if surface.by_face is None:
-            self.scene["shapes"].append({"type": "mesh", "file": str(file), "smoothNormals": True,
-                                         "material": self.material(surface.material),
-                                         "transform": {"matrix": tr.flat(matrix)}})
+            self._mesh(file, matrix, surface.described(True))
             return
         for shape, material in surface.by_face(file):
             shape.update(material=self.material(material), transform={"matrix": tr.flat(matrix)})
             self.scene["shapes"].append(shape)
+
+
+def behind(matrix):
+    """The same a little behind itself. Their surfaces are black on the back, ours look alike on both sides: a
+    black one stands behind them."""
+    normal = tr.unit(tr.cross(tr.vector(matrix, [1, 0, 0]), tr.vector(matrix, [0, 1, 0])))
+    return tr.times(tr.translation(*tr.scaled(normal, -BEHIND)), matrix)
 
 
 def spot_lights(position, direction, intensity, inner, outer):

@@ -30,6 +30,14 @@ class Picture:
             return part
         return Picture(width, height, rows(self.rgb, 3), rows(self.variance, 1), rows(self.samples, 1))
 
+    def __add__(self, other):
+        """Of independent pictures, with as many samples as the one that has fewer."""
+        def sums(a, b):
+            return None if a is None or b is None else array.array("f", (x + y for x, y in zip(a, b)))
+        samples = self.samples and other.samples and array.array("f", map(min, self.samples, other.samples))
+        return Picture(self.width, self.height, sums(self.rgb, other.rgb), sums(self.variance, other.variance),
+                       samples)
+
     def luminances(self):
         red, green, blue = LUMINANCE
         values = self.rgb
