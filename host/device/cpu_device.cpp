@@ -188,6 +188,8 @@ public:
             CpuAdaptiveShared{scene_, window, rule, order_, threads_, statistics_, {}});
     }
 
+    uint32_t samplerKind() const override { return scene_.frame.samplerKind; }
+
     uint32_t maxTilePixels() const override { return 1u << 16; }
 
     uint64_t maxAdaptivePixels() const override { return std::numeric_limits<uint64_t>::max(); }

@@ -51,6 +51,7 @@ public:
     void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override;
     std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,
                                                    const AdaptiveRule& rule) override;
+    uint32_t samplerKind() const override { return samplerKind_; }
     uint32_t maxTilePixels() const override { return tilePixelLimit(context_->physical, group_); }
     uint64_t maxAdaptivePixels() const override { return adaptivePixelLimit(context_->physical); }
     DeviceStatistics statistics() const override { return statistics_; }
@@ -80,6 +81,7 @@ private:
     SceneFeatures pipelineFeatures_;
     uint32_t pipelineStack_ = 0;  // 0: no pipeline yet
     std::unique_ptr<VulkanScene> scene_;
+    uint32_t samplerKind_ = SAMPLER_INDEPENDENT;
     Buffer pixels_, suspended_;   // as large as the largest tile so far
     Buffer firstHits_;
     bool bound_ = false;           // pipeline_'s descriptor set holds the buffers above
@@ -113,6 +115,7 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     statistics_.uploadSeconds += secondsSince(start);
     preparePipeline(uploaded->texel, featuresOf(scene), stackSize);
     scene_ = std::move(uploaded);
+    samplerKind_ = scene.frame.samplerKind;
     statistics_.sceneBytes = scene_->bytes;
     statistics_.texelBuffers = scene_->texel;
 }

@@ -51,8 +51,7 @@ struct Kernel {
     const AliasEntry& loadAliasEntry(uint index) const { return aliasEntries[index]; }
     const Texture& loadTexture(uint index) const { return textures[index]; }
     uint loadTextureTexel(uint index) const { return textureTexels[index]; }
-    vec3 loadProbeTexel(uint index) const { return vec3(probeTexels[index]); }
-    float loadProbeWeight(uint index) const { return probeTexels[index].w; }
+    const vec4& loadProbeTexel(uint index) const { return probeTexels[index]; }
 
     // Of adaptive sampling: of all pixels of a picture, top row first.
     std::span<const PixelEstimate> estimates;

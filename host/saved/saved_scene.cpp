@@ -137,6 +137,7 @@ void writeSavedScene(const PreparedScene& prepared, const fs::path& path)
     }
     std::vector<Section> sections = {{DESCRIPTION_SECTION, std::as_bytes(std::span(text)), 1}};
     SavedArrays arrays = {prepared.deviceScene(), prepared.scene.objectStarts};
+    arrays.device.lights = prepared.sceneLights();
     forEachArray(arrays, [&]<class Element>(const char* name, std::span<const Element> array) {
         sections.push_back({name, std::as_bytes(array), sizeof(Element)});
     });
@@ -170,6 +171,7 @@ PreparedScene loadSavedScene(const fs::path& path, const SceneOptions& options)
     const DeviceScene scene = prepared.deviceScene();
     checkFrame(file, scene.frame, scene.probeTexels.size());
     replaceProbe(options, prepared);
+    prepareLights(prepared);
     return prepared;
 }
 

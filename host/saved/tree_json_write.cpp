@@ -187,7 +187,7 @@ nlohmann::ordered_json describeForTree(const PreparedScene& prepared, const Devi
     json["textures"] = Json::array();
     for (const Texture& texture : scene.textures) json["textures"].push_back(textureJson(texture));
     json["lights"] = Json::array();
-    for (const Light& light : scene.lights) json["lights"].push_back(lightJson(light));
+    for (const Light& light : prepared.sceneLights()) json["lights"].push_back(lightJson(light));
     json["objectStarts"] = prepared.scene.objectStarts;
     return json;
 }

@@ -121,6 +121,8 @@ Box extentOf(const std::vector<Primitive>& primitives);
 struct SceneOptions {
     std::optional<uint32_t> width, height, spp, maxBounces, seed;
     std::optional<uint32_t> integrator;  ///< one of INTEGRATOR_*
+    std::optional<uint32_t> samplerKind, rouletteDepth;  ///< one of SAMPLER_*; NO_ROULETTE: off
+    std::optional<float> clampIndirect;                  ///< 0: off
     std::optional<uint32_t> terms;       ///< of phong: bits of SHADING_TERMS
     std::optional<bool> shadows;         ///< of phong
     std::optional<bool> flatNormals;     ///< geometric normals in place of interpolated ones

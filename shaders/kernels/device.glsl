@@ -138,12 +138,7 @@ ObjectInstance loadInstance(uint index)
                     uintBitsToFloat(i.xyz), i.w);
 }
 
-vec3 loadProbeTexel(uint index)
+vec4 loadProbeTexel(uint index)
 {
-    return uintBitsToFloat(FETCH(probeWords, index).xyz);
-}
-
-float loadProbeWeight(uint index)
-{
-    return uintBitsToFloat(FETCH(probeWords, index).w);
+    return uintBitsToFloat(FETCH(probeWords, index));
 }

@@ -9,6 +9,7 @@ struct Tally
     uint boxTests;
     uint primitiveTests;
     uint bounces;
+    uint clamped;
 };
 
 Tally tally;             // work counted for the current sample
@@ -20,6 +21,7 @@ CONST float RAY_INFINITY = 3.0e38f;
 
 #include "pathtrace/exact.glsl"
 #include "pathtrace/math.glsl"
+#include "pathtrace/sobol.glsl"
 #include "pathtrace/rng.glsl"
 #include "pathtrace/sampling.glsl"
 #include "pathtrace/camera.glsl"
@@ -33,8 +35,13 @@ CONST float RAY_INFINITY = 3.0e38f;
 #include "pathtrace/fresnel.glsl"
 #include "pathtrace/bsdf.glsl"
 #include "pathtrace/probe.glsl"
+#include "pathtrace/light_choice.glsl"
+#include "pathtrace/probe_sampling.glsl"
+#include "pathtrace/shape_lights.glsl"
 #include "pathtrace/light.glsl"
 #include "pathtrace/phong.glsl"
+#include "pathtrace/roulette.glsl"
+#include "pathtrace/gather.glsl"
 #include "pathtrace/path.glsl"
 #include "pathtrace/film.glsl"
 #include "pathtrace/first_hits.glsl"

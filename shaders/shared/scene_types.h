@@ -151,6 +151,8 @@ GPU_FIELD(Material, emissionTexture, 124);
 SHARED_CONST uint LIGHT_POINT = 0u;
 SHARED_CONST uint LIGHT_SPOT = 1u;
 SHARED_CONST uint LIGHT_DIRECTIONAL = 2u;
+SHARED_CONST uint LIGHT_TRIANGLE = 3u;  // that shines: from here on `slot` and `instance` say all
+SHARED_CONST uint LIGHT_SPHERE = 4u;
 
 struct Light
 {

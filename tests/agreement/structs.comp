@@ -76,7 +76,7 @@ void main()
     PixelBlock b = blocks[1];
     put(b.sum); put(b.sumY2); put(b.digest); put(b.samplesDone); put(b.status); put(b.badSamples);
     put(b.indirectRays); put(b.shadowRays); put(b.boxTests); put(b.primitiveTests);
-    put(b.bounces); put(b.faults); put(b.unused0); put(b.unused1);
+    put(b.bounces); put(b.faults); put(b.clamped); put(b.unused0);
     PathState p = paths[1].path;
     put(p.org); put(p.phase); put(p.dir); put(p.depth); put(p.beta); put(p.pixel); put(p.L); put(p.sampleIndex);
     put(p.shadowOrg); put(p.shadowTMax); put(p.shadowDir); put(p.digest); put(p.Ld); put(p.mediumEta);
@@ -84,7 +84,7 @@ void main()
     put(p.hit);
     put(paths[1].traversal);
     put(paths[1].indirectRays); put(paths[1].shadowRays); put(paths[1].boxTests); put(paths[1].primitiveTests);
-    put(paths[1].bounces); put(paths[1].unused0); put(paths[1].unused1); put(paths[1].unused2);
+    put(paths[1].bounces); put(paths[1].clamped); put(paths[1].unused0); put(paths[1].unused1);
     for (uint i = 0u; i < MAX_SUSPENDED_STACK; i++) put(paths[1].stack[i]);
     ObjectInstance o = instances[1];
     put(o.toObject0); put(o.rootRef); put(o.toObject1); put(o.firstNumber); put(o.toObject2); put(o.material);
