@@ -1,5 +1,6 @@
 """Pictures of 8-bit values: PNG and BMP files in, PNG files out."""
 
+import itertools
 import math
 import struct
 import zlib
@@ -13,11 +14,26 @@ class Bitmap:
 
     def __init__(self, width, height, channels, rows):
         self.width, self.height, self.channels, self.rows = width, height, channels, rows
+        self.sums = {}  # of rows' channels: running sums of linear values
 
     def linear(self, x, y, channel):
         """A colour channel of the texel, decoded; beside the picture it repeats."""
         row = self.rows[y % self.height]
         return DECODED[row[self.channels * (x % self.width) + (channel if self.channels > 2 else 0)]]
+
+    def average(self, u0, u1, v, channel):
+        """Of a channel between two places of the row at v, u0 < u1, in [0, 1]; texels are boxes."""
+        row = self.rows[min(int(v * self.height), self.height - 1)]
+        sums = self.sums.get((row, channel))
+        if sums is None:
+            texels = row[channel if self.channels > 2 else 0::self.channels]
+            sums = self.sums[row, channel] = list(itertools.accumulate((DECODED[t] for t in texels), initial=0.0))
+
+        def below(u):
+            x = u * self.width
+            i = min(int(x), self.width - 1)
+            return sums[i] + (x - i) * (sums[i + 1] - sums[i])
+        return (below(u1) - below(u0)) / ((u1 - u0) * self.width)
 
     def lookup(self, u, v, channel):
         """Bilinear, linear; v from the top."""

@@ -15,7 +15,7 @@ import witness
 PROGRAMS = witness.Programs()
 DEVICE = ("--device", sys.argv.pop(1))
 FRAME = 0.005  # largest difference of the frame's mean, relative to it
-SURE = 0.0015  # largest standard error at which that can be told
+SURE = FRAME / 3  # largest standard error at which that can be told
 SIZE = 192
 BOUNCES = 5
 

@@ -189,9 +189,11 @@ def shown_through(light, spot, fov):
             above = half * (1 - 2 * (y + 0.5) / spot.height)
             color, pixel = spot.pixel(x, y), (y // FINE) * width + x // FINE
             if max(color) > 0:
-                factors = light.shown(left, above, 1)
+                u, v = light.uv(left, above, 1)
+                reach = half / spot.width / (2 * light.half)
                 for i in range(3):
-                    rgb[3 * pixel + i] += color[i] * factors[i] / FINE ** 2
+                    factor = light.bitmap.average(u - reach, u + reach, v, i)
+                    rgb[3 * pixel + i] += color[i] * factor / FINE ** 2
                 variance[pixel] += spot.variance[y * spot.width + x] / FINE ** 4
     return pictures.Picture(width, height, rgb, variance, array.array("f", [spot.samples[0] * FINE ** 2]) * len(variance))
 

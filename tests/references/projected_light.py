@@ -27,9 +27,9 @@ class Spot(Light):
         self.inner = document.number(node, "beam_width", 0.75 * self.outer)
         self.half = math.tan(math.radians(self.outer))  # of the picture, one metre away
 
-    def shown(self, x, y, z):
-        """The picture's colour in a direction of the light's frame."""
-        return self.colors(0.5 + 0.5 * x / (z * self.half), 0.5 + 0.5 * y / (z * self.half))
+    def uv(self, x, y, z):
+        """Where in the picture a direction of the light's frame leads."""
+        return 0.5 + 0.5 * x / (z * self.half), 0.5 + 0.5 * y / (z * self.half)
 
     def irradiance(self, point, normal):
         x, y, z = tr.point(self.inverse, point)
@@ -40,7 +40,7 @@ class Spot(Light):
         share = min(1.0, (self.outer - angle) / (self.outer - self.inner))
         toward = tr.unit(tr.minus(tr.point(self.matrix, [0, 0, 0]), point))
         cosine = max(0.0, sum(a * b for a, b in zip(toward, normal)))
-        return [i * c * share * cosine / distance ** 2 for i, c in zip(self.intensity, self.shown(x, y, z))]
+        return [i * c * share * cosine / distance ** 2 for i, c in zip(self.intensity, self.colors(*self.uv(x, y, z)))]
 
 
 class Projector(Light):
