@@ -176,8 +176,8 @@ ShapeSample sampleTriangleLight(float perArea, Primitive triangle, uint instance
     ShapeSample ss = nothingSeen();
     float distance = aimAtPoint(isect, q, org, ss.wi);
     if (!(distance > 0.0f) || (HAS_CUTOUTS && isCutOut(triangle, material, b1, b2))) return ss;
-    if (HAS_TEXTURES && triangle.shape != SHAPE_FLAT) {
-        vec2 uv = cornersUv(loadCorners(triangle.shape), b1, b2);
+    if (HAS_TEXTURES) {
+        vec2 uv = triangleUv(triangle, b1, b2);
         ss.u = uv.x;
         ss.v = uv.y;
     }
