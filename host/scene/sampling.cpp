@@ -14,13 +14,15 @@ const char* samplerName(uint32_t samplerKind)
 void readSampling(const JsonObject& integrator, RenderSettings& settings)
 {
     const std::string name = integrator.choice("sampler", SAMPLERS);
-    settings.samplerKind = static_cast<uint32_t>(std::ranges::find(SAMPLERS, name) - SAMPLERS.begin());
+    settings.samplerKind =
+        static_cast<uint32_t>(std::ranges::find(SAMPLERS, name) - SAMPLERS.begin());
     settings.rouletteDepth = NO_ROULETTE;
     if (integrator.has("rouletteDepth"))
         settings.rouletteDepth = integrator.uint("rouletteDepth", 0, 0, MAX_ROULETTE_DEPTH);
     settings.clampIndirect = 0;
     if (integrator.has("clampIndirect"))
-        settings.clampIndirect = static_cast<float>(integrator.number("clampIndirect", 0, CLAMP_RANGE));
+        settings.clampIndirect =
+            static_cast<float>(integrator.number("clampIndirect", 0, CLAMP_RANGE));
 }
 
 void applySamplingOptions(RenderSettings& settings, const SceneOptions& options)

@@ -1,5 +1,5 @@
-// How samples are drawn and weighed, as a scene file and the command line ask for it: the sampler, Russian
-// roulette, the clamp of indirect light.
+// How samples are drawn and weighed, as a scene file and the command line ask for it: the sampler,
+// Russian roulette, the clamp of indirect light.
 #pragma once
 
 #include "scene/json_fields.h"

@@ -107,7 +107,7 @@ void seeEmission(SurfaceInteraction isect, Material material, Traversal hit, INO
     if (!(maxComponent(material.emission) > 0.0f)) return;
     float weight = 1.0f;
     if (path.pdf > 0.0f) {
-        float pdfLight = pdfShapeLight(hit, isect, material.emission, path.org, path.dir);
+        float pdfLight = pdfShapeLight(hit, isect, meanEmission(material, isect.material), path.org, path.dir);
         weight = weightOfScattering(path.pdf, pdfLight);
     }
     gather(path.beta * material.emission * weight, path.depth, path);

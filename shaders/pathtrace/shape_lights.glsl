@@ -99,7 +99,7 @@ float pdfSphereLight(float perArea, Primitive sphere, uint instance, vec3 org, v
 }
 
 /// Density with which light sampling takes the direction of a ray that met a shape [1/sr].
-///   radiance  emission of its material
+///   radiance  emission of its material, on average
 float pdfShapeLight(Traversal hit, SurfaceInteraction isect, vec3 radiance, vec3 org, vec3 dir)
 {
     float perArea = flushed(luminance(radiance) * frame.lightPerPower);

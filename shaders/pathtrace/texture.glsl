@@ -105,6 +105,12 @@ vec2 cornersUv(TriangleCorners corners, float b1, float b2)
                 (corners.v0 * b0 + corners.v1 * b1) + corners.v2 * b2);
 }
 
+vec2 triangleUv(Primitive triangle, float b1, float b2)
+{
+    if (triangle.shape == SHAPE_FLAT) return vec2(0.0f);
+    return cornersUv(loadCorners(triangle.shape), b1, b2);
+}
+
 /// Texture coordinates of a sphere as of a globe: v goes from -Y to +Y, u around, with +Z in the middle.
 ///   n  unit direction from the centre, in the sphere's own space
 vec2 sphereUv(vec3 n)
@@ -121,9 +127,17 @@ bool isCutOut(Primitive triangle, uint instanceMaterial, float b1, float b2)
     Material material =
         loadMaterial(instanceMaterial != NO_MATERIAL ? instanceMaterial : triangle.material);
     if (!(material.alphaCutoff > 0.0f) || material.baseColorTexture == NO_TEXTURE) return false;
-    vec2 uv = vec2(0.0f);
-    if (triangle.shape != SHAPE_FLAT) uv = cornersUv(loadCorners(triangle.shape), b1, b2);
+    vec2 uv = triangleUv(triangle, b1, b2);
     return lookUpAlpha(material.baseColorTexture, uv.x, uv.y) < material.alphaCutoff;
+}
+
+/// The emission of a material on average over its texture: by this lights are chosen.
+///   material  as it is stored or as it is somewhere
+///   index     of the stored one
+vec3 meanEmission(Material material, uint index)
+{
+    if (!HAS_TEXTURES || material.emissionTexture == NO_TEXTURE) return material.emission;
+    return loadMaterial(index).emission * loadTexture(material.emissionTexture - 1u).mean;
 }
 
 /// The material as it is at (u, v): its numbers times those of its textures.
