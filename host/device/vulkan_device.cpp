@@ -40,6 +40,22 @@ std::string tileName(const TileRequest& tile)
                        uint64_t{tile.firstSample} + tile.sampleCount - 1);
 }
 
+/// What of a scene the kernels are made for.
+struct PipelineTraits {
+    uint32_t stackSize = 0;  ///< 0: no pipeline yet
+    bool texel = false;      ///< buffers of texels rather than storage buffers
+    bool instances = false;
+    bool glossy = false;
+
+    bool operator==(const PipelineTraits&) const = default;
+};
+
+bool hasGlossy(const DeviceScene& scene)
+{
+    return std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [](const Material& m) { return m.type >= MATERIAL_ROUGH_CONDUCTOR; });
+}
+
 class VulkanDevice final : public Device {
 public:
     VulkanDevice(std::unique_ptr<Context> context, const DeviceOptions& options);
@@ -57,7 +73,7 @@ public:
 private:
     ComputePipeline makePipeline(const std::string& kernel, uint32_t bindingCount,
                                  uint32_t pushConstantBytes = sizeof(Dispatch)) const;
-    void preparePipeline(bool texel, bool instances, uint32_t stackSize);
+    void preparePipeline(const PipelineTraits& traits);
     void prepareTileBuffers(size_t pixels);
     void prepareFirstHits(size_t pixels);
     void bindAll(ComputePipeline& pipeline);
@@ -75,9 +91,7 @@ private:
     ComputePipeline pipeline_;
     ComputePipeline firstHitsPipeline_;          // made when first asked for
     const ComputePipeline* active_ = nullptr;    // the one of the two that dispatches use
-    bool pipelineTexel_ = false;
-    bool pipelineInstances_ = false;
-    uint32_t pipelineStack_ = 0;  // 0: no pipeline yet
+    PipelineTraits traits_;  // of the pipelines
     std::unique_ptr<VulkanScene> scene_;
     Buffer pixels_, suspended_;   // as large as the largest tile so far
     Buffer firstHits_;
@@ -110,7 +124,7 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     auto start = std::chrono::steady_clock::now();
     auto uploaded = std::make_unique<VulkanScene>(uploadScene(*context_, scene, options_.buffers));
     statistics_.uploadSeconds += secondsSince(start);
-    preparePipeline(uploaded->texel, !scene.instances.empty(), stackSize);
+    preparePipeline({stackSize, uploaded->texel, !scene.instances.empty(), hasGlossy(scene)});
     scene_ = std::move(uploaded);
     statistics_.sceneBytes = scene_->bytes;
     statistics_.texelBuffers = scene_->texel;
@@ -121,9 +135,9 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
                                            uint32_t pushConstantBytes) const
 {
     PipelineRequest request;
-    request.name = kernel + (pipelineTexel_ ? "_texel" : "_storage");
+    request.name = kernel + (traits_.texel ? "_texel" : "_storage");
     request.spirv = kernelSpirv(request.name);
-    request.bindings.assign(SCENE_BUFFER_COUNT, pipelineTexel_
+    request.bindings.assign(SCENE_BUFFER_COUNT, traits_.texel
                                                     ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
                                                     : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     request.bindings[BINDING_INSTANCES] = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
@@ -133,27 +147,24 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     request.specialisation.resize(SPEC_COUNT);
     request.specialisation[SPEC_GROUP_WIDTH] = group_[0];
     request.specialisation[SPEC_GROUP_HEIGHT] = group_[1];
-    request.specialisation[SPEC_STACK_SIZE] = pipelineStack_;
+    request.specialisation[SPEC_STACK_SIZE] = traits_.stackSize;
     request.specialisation[SPEC_ORDER] = options_.traversalOrder;
     request.specialisation[SPEC_EXACT_MATH] = statistics_.exactMath ? 1 : 0;
-    request.specialisation[SPEC_INSTANCES] = pipelineInstances_ ? 1 : 0;
+    request.specialisation[SPEC_INSTANCES] = traits_.instances ? 1 : 0;
     return createComputePipeline(*context_, request);
 }
 
-void VulkanDevice::preparePipeline(bool texel, bool instances, uint32_t stackSize)
+void VulkanDevice::preparePipeline(const PipelineTraits& traits)
 {
-    if (pipelineStack_ == stackSize && pipelineTexel_ == texel && pipelineInstances_ == instances)
-        return;
-    pipelineStack_ = stackSize;
-    pipelineTexel_ = texel;
-    pipelineInstances_ = instances;
+    if (traits_ == traits) return;
+    traits_ = traits;
     firstHitsPipeline_ = {};
     firstHitsBound_ = false;
     adaptive_ = {};
     try {
-        pipeline_ = makePipeline("path", BINDING_COUNT);
+        pipeline_ = makePipeline(traits_.glossy ? "path_glossy" : "path", BINDING_COUNT);
     } catch (...) {
-        pipelineStack_ = 0;
+        traits_ = {};
         throw;
     }
 }
@@ -174,7 +185,7 @@ void VulkanDevice::prepareTileBuffers(size_t pixels)
 
 void VulkanDevice::prepareFirstHits(size_t pixels)
 {
-    uint32_t storageBuffers = (pipelineTexel_ ? 0 : SCENE_BUFFER_COUNT - 1) + 3;
+    uint32_t storageBuffers = (traits_.texel ? 0 : SCENE_BUFFER_COUNT - 1) + 3;
     uint32_t allowed = context_->physical.properties.limits.maxPerStageDescriptorStorageBuffers;
     if (storageBuffers > allowed)
         throw Error(ErrorKind::noDevice,
@@ -250,7 +261,9 @@ std::unique_ptr<AdaptivePicture> VulkanDevice::beginAdaptive(const AdaptiveWindo
 {
     if (!scene_) throw usageError("adaptive sampling on '{}' without a scene", context_->physical.name);
     if (!adaptive_) {
-        ComputePipeline path = makePipeline("adaptive_path", BINDING_COUNT, sizeof(AdaptiveDispatch));
+        ComputePipeline path =
+            makePipeline(traits_.glossy ? "adaptive_path_glossy" : "adaptive_path", BINDING_COUNT,
+                         sizeof(AdaptiveDispatch));
         adaptive_ = std::make_unique<AdaptivePipelines>(
             makeAdaptivePipelines(*context_, std::move(path), group_, statistics_.exactMath));
     }
@@ -262,14 +275,14 @@ std::unique_ptr<AdaptivePicture> VulkanDevice::beginAdaptive(const AdaptiveWindo
         prepareTileBuffers(pixels);
     };
     AdaptiveHost host = {*context_, *adaptive_,  *scene_,        suspended_,
-                         work_,     statistics_, pipelineStack_, prepareTile};
+                         work_,     statistics_, traits_.stackSize, prepareTile};
     return makeVulkanAdaptivePicture(host, window, rule);
 }
 
 void VulkanDevice::renderBlocks(const TileRequest& tile, std::span<PixelBlock> blocks)
 {
     RoundState state = runRound(tile, tile.sampleCount, true, blocks);
-    work_.finish({tileName(tile), scene_->stepsPerSample, pipelineStack_}, state,
+    work_.finish({tileName(tile), scene_->stepsPerSample, traits_.stackSize}, state,
                  [&](uint32_t dispatches) { return runRound(tile, dispatches, false, blocks); });
 }
 

@@ -96,7 +96,8 @@ TEST_P(LongVerifySmallScenes, haveNoDifferingBitInExactMath)
 
 constexpr const char* SMALL_SCENES[] = {
     "mirror", "dielectric",  "conductor",  "report_material", "sphere",  "lens",  "orthographic",
-    "spot",   "directional", "background", "emission",        "angular", "phong", "instances"};
+    "spot",   "directional", "background", "emission",        "angular", "phong", "instances",
+    "rough_conductor", "rough_dielectric", "layers"};
 
 const auto nameOfScene = [](const auto& tested) { return std::string(tested.param); };
 
