@@ -73,7 +73,7 @@ nlohmann::ordered_json bvhJson(const PreparedScene& prepared, const StageSeconds
               {"primitives", scene.primitives.size()},
               {"droppedTriangles", prepared.scene.droppedTriangles},
               {"materials", scene.materials.size()},
-              {"lights", scene.lights.size()}}},
+              {"lights", scene.frame.lightCount}}},
             {"tree", treeJson(prepared.bvh.statistics)},
             {"bytes",
              {{"nodes", bytes.nodes},
@@ -95,7 +95,7 @@ void printTree(const PreparedScene& prepared, const StageSeconds& seconds)
     const BvhStatistics& tree = prepared.bvh.statistics;
     const SceneBytes bytes = bytesOf(scene);
     answer("scene      {}, {} primitives, {} materials, {} lights\n", prepared.scene.name,
-           scene.primitives.size(), scene.materials.size(), scene.lights.size());
+           scene.primitives.size(), scene.materials.size(), scene.frame.lightCount);
     answer("tree       {} inner nodes, {} leaves, depth {}, at most {} primitives a leaf\n",
            tree.innerNodes, tree.leaves, tree.depth, tree.largestLeaf);
     answer("SAH cost   {:.3f} tests a ray, built by {}\n", tree.sahCost,

@@ -68,6 +68,7 @@ void printSummary(const MergeOptions& options, const MergedFilm& merged,
         warn(fmt::format("{} samples were negative or not finite and count as black",
                          counters.badSamples));
     }
+    if (counters.clamped > 0) say("indirect light was clamped {} times (biased)\n", counters.clamped);
     for (const fs::path& path : outputs) answer("{}\n", path.string());
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/adaptive.h"
 #include "app/option_kinds.h"
+#include "app/sampling_options.h"
 #include "app/shading_options.h"
 #include "film/film.h"
 #include "saved/saved_scene.h"
@@ -57,6 +58,7 @@ void addSceneOptions(CLI::App& command, CommonOptions& options)
     addNumber(command, "--max-bounces", scene.maxBounces, {0, 65535}, "scatterings of a path",
               SCENES)
         ->group("Picture");
+    addSamplingOptions(command, scene);
     addAdaptiveOptions(command, scene);
 
     addShadingOptions(command, scene);

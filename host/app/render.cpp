@@ -11,6 +11,7 @@
 #include "app/partial.h"
 #include "app/progress.h"
 #include "app/sample_range.h"
+#include "app/sampling_options.h"
 #include "app/shading_options.h"
 #include "app/skip_existing.h"
 #include "app/stats.h"
@@ -129,10 +130,9 @@ AdaptiveReport reportOf(const RenderSettings& settings, const RenderResult& resu
 ImageMetadata settingsMetadata(const Scene& scene, const SceneHashes& hashes)
 {
     ImageMetadata metadata = describeShading(scene.settings);
+    metadata.merge(describeSampling(scene.settings));
     metadata.merge(ImageMetadata{{"sahl.version", SAHL_VERSION},
                                  {"sahl.integrator", integratorName(scene.settings)},
-                                 {"sahl.sampler", "independent"},
-                                 {"sahl.varianceOver", "samples"},
                                  {"sahl.seed", std::to_string(scene.settings.seed)},
                                  {"sahl.maxBounces", std::to_string(scene.settings.maxBounces)},
                                  {"sahl.sceneHash", hashText(hashes.scene)},
@@ -202,6 +202,8 @@ void printSummary(const RenderOptions& options, const PreparedScene& prepared,
         warn(fmt::format("{} samples were negative or not finite and count as black",
                          counters.badSamples));
     }
+    const std::string clamped = clampSummary(prepared.scene.settings, counters);
+    if (!clamped.empty()) say("{}\n", clamped);
 }
 
 /// Writes all but the statistics; of a picture that is not finished the outputs alone.

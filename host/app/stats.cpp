@@ -64,7 +64,8 @@ Json countersJson(const Counters& counters)
     return {{"cameraRays", counters.cameraRays},         {"indirectRays", counters.indirectRays},
             {"shadowRays", counters.shadowRays},         {"boxTests", counters.boxTests},
             {"primitiveTests", counters.primitiveTests}, {"bounces", counters.bounces},
-            {"badSamples", counters.badSamples}};
+            {"badSamples", counters.badSamples},
+            {"clamped", counters.clamped}};
 }
 
 Json treeJson(const BvhStatistics& tree)
@@ -93,7 +94,7 @@ Json statisticsJson(const PreparedScene& prepared, const Film& film, Device& dev
           {"instances", arrays.instances.size()},
           {"droppedTriangles", scene.droppedTriangles},
           {"materials", arrays.materials.size()},
-          {"lights", arrays.lights.size()},
+          {"lights", arrays.frame.lightCount},
           {"width", scene.settings.width},
           {"height", scene.settings.height},
           {"maxBounces", scene.settings.maxBounces},

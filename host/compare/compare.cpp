@@ -80,7 +80,7 @@ Judgement judgeStatistics(const Statistics& s, const CompareOptions& options)
     if (s.excludedPixels == s.z.size()) {
         return {Verdict::undecided,
                 "no pixel has a usable variance in both files, which takes at least 2 "
-                "samples a pixel"};
+                "samples a pixel, and more than 8 by the sampler sobol"};
     }
     if (!(s.frame.standardError > 0)) {
         return {Verdict::undecided,
@@ -151,9 +151,11 @@ std::vector<std::string> notesOn(const LoadedPicture& a, const LoadedPicture& b,
     }
     for (const LoadedPicture* picture : {&a, &b}) {
         if (textIn(picture->metadata, "sahl.biased") != "yes") continue;
-        notes.push_back(
-            fmt::format("{} says that it is biased ({}): a difference is to be expected",
-                        picture->name, textIn(picture->metadata, "sahl.adaptive")));
+        const std::string clamp = textIn(picture->metadata, "sahl.clampIndirect");
+        const std::string rule = textIn(picture->metadata, "sahl.adaptive");
+        notes.push_back(fmt::format(
+            "{} says that it is biased ({}): a difference is to be expected", picture->name,
+            clamp.empty() ? rule : "indirect light clamped to " + clamp));
     }
     if (textIn(a.metadata, "sahl.crop") != textIn(b.metadata, "sahl.crop")) {
         notes.push_back("the files are windows of larger pictures, and not the same ones");
@@ -167,7 +169,7 @@ std::vector<std::string> notesOn(const LoadedPicture& a, const LoadedPicture& b,
     const Statistics& s = *c.statistics;
     if (s.excludedPixels > c.metrics.excludedPixels) {
         notes.push_back(fmt::format(
-            "{} pixels have no usable variance (it takes 2 samples): tests leave them out",
+            "{} pixels have no usable variance (it takes 2 samples, under sobol 2 blocks of 8): tests leave them out",
             s.excludedPixels - c.metrics.excludedPixels));
     }
     if (s.noEvidenceDiffering > 0) {

@@ -24,6 +24,10 @@ struct LoadedPicture {
         variance;  ///< of each pixel's mean luminance (variance.Y); empty: not in the file
     std::vector<float> samples;  ///< of each pixel (samples.Y); empty: not in the file
     ImageMetadata metadata;      ///< string attributes of an EXR, texts of a PNG
+
+    /// Replicates of a pixel, whose spread its variance is from: samples, or blocks of them where the file
+    /// says so (sahl.varianceOver). `samples` must be there.
+    double replicates(size_t pixel) const;
 };
 
 /// Reads EXR, HDR, PFM or PNG. Throws badInput naming the file and what is wrong with it.

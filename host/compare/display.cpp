@@ -7,11 +7,6 @@
 
 namespace sahl {
 
-double linearFromSrgb(double srgb)
-{
-    return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
-}
-
 Image clippedForDisplay(const Image& image, double stops)
 {
     const double gain = std::exp2(stops);

@@ -6,9 +6,6 @@
 
 namespace sahl {
 
-/// The inverse of srgbFromLinear() in image/tone_map.h.
-double linearFromSrgb(double srgb);
-
 /// Times 2^stops, clipped to [0,1]; still linear. What is not finite becomes 0.
 Image clippedForDisplay(const Image& image, double stops);
 

@@ -1,13 +1,15 @@
 // Pictures from files of every kind that a comparison takes.
 #include "compare/compare.h"
-#include "compare/display.h"
 #include "image/exr_layers.h"
 #include "image/png_read.h"
+#include "image/tone_map.h"
+#include "shared/film_types.h"
 #include "util/error.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <fstream>
 
 namespace sahl {
@@ -64,6 +66,13 @@ void readLayersInto(const fs::path& path, LoadedPicture& picture)
 }
 
 }  // namespace
+
+double LoadedPicture::replicates(size_t pixel) const
+{
+    const auto over = metadata.find("sahl.varianceOver");
+    const bool overBlocks = over != metadata.end() && over->second == "blocks";
+    return overBlocks ? std::ceil(samples[pixel] / float{BLOCK_SIZE}) : samples[pixel];
+}
 
 LoadedPicture loadPicture(const fs::path& path)
 {

@@ -25,15 +25,24 @@ struct PixelPair {
     double pooled = 0;                    // variance of a - b if both files' samples are alike
 };
 
-/// Variance of the difference of two means, from the spread of all samples together. Both stated
-/// variances are of means: times the number of samples they are those of one sample.
-double pooledVariance(double varianceA, double samplesA, double varianceB, double samplesB)
+/// What a file knows of a pixel's noise.
+struct PixelNoise {
+    double variance = 0;  // of the mean
+    double samples = 0;
+    double replicates = 0;
+
+    double freedom() const { return std::max(replicates - 1, 0.0); }
+    double ofOneSample() const { return variance * samples; }
+};
+
+/// Variance of the difference of two means, from the spread of all replicates together.
+double pooledVariance(const PixelNoise& a, const PixelNoise& b)
 {
-    const double freedomA = std::max(samplesA - 1, 0.0), freedomB = std::max(samplesB - 1, 0.0);
-    if (!(freedomA + freedomB > 0) || !(samplesA > 0) || !(samplesB > 0)) return 0;
+    const double freedom = a.freedom() + b.freedom();
+    if (!(freedom > 0) || !(a.samples > 0) || !(b.samples > 0)) return 0;
     const double ofOneSample =
-        (freedomA * varianceA * samplesA + freedomB * varianceB * samplesB) / (freedomA + freedomB);
-    return ofOneSample * (1 / samplesA + 1 / samplesB);
+        (a.freedom() * a.ofOneSample() + b.freedom() * b.ofOneSample()) / freedom;
+    return ofOneSample * (1 / a.samples + 1 / b.samples);
 }
 
 PixelPair pairAt(const LoadedPicture& a, const LoadedPicture& b, size_t i)
@@ -46,10 +55,12 @@ PixelPair pairAt(const LoadedPicture& a, const LoadedPicture& b, size_t i)
     p.usable = std::isfinite(p.a) && std::isfinite(p.b) && std::isfinite(p.varianceA) &&
                std::isfinite(p.varianceB) && p.varianceA >= 0 && p.varianceB >= 0;
     if (p.usable && !a.samples.empty() && !b.samples.empty()) {
-        // A single sample has no spread: its 0 says nothing, and light that it met by chance is no
+        // A single replicate has no spread: its 0 says nothing, and light that it met by chance is no
         // error.
-        p.usable = a.samples[i] >= 2 && b.samples[i] >= 2;
-        p.pooled = pooledVariance(p.varianceA, a.samples[i], p.varianceB, b.samples[i]);
+        const PixelNoise ofA = {p.varianceA, a.samples[i], a.replicates(i)};
+        const PixelNoise ofB = {p.varianceB, b.samples[i], b.replicates(i)};
+        p.usable = ofA.replicates >= 2 && ofB.replicates >= 2;
+        p.pooled = pooledVariance(ofA, ofB);
     }
     return p;
 }

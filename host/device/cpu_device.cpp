@@ -162,7 +162,8 @@ public:
         statistics_.sceneBytes = scene.nodes.size_bytes() + scene.primitives.size_bytes() +
                                  scene.triangleCorners.size_bytes() + scene.materials.size_bytes() +
                                  scene.lights.size_bytes() + scene.probeTexels.size_bytes() +
-                                 scene.instances.size_bytes();
+                                 scene.instances.size_bytes() + scene.textures.size_bytes() +
+                                 scene.textureTexels.size_bytes();
     }
 
     void render(const TileRequest& tile, std::span<PixelBlock> blocks) override
@@ -186,6 +187,8 @@ public:
         return std::make_unique<CpuAdaptivePicture>(
             CpuAdaptiveShared{scene_, window, rule, order_, threads_, statistics_, {}});
     }
+
+    uint32_t samplerKind() const override { return scene_.frame.samplerKind; }
 
     uint32_t maxTilePixels() const override { return 1u << 16; }
 

@@ -128,6 +128,9 @@ public:
     virtual std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,
                                                            const AdaptiveRule& rule) = 0;
 
+    /// Sampler of the scene that is set, one of SAMPLER_*: what the spread of samples means depends on it.
+    virtual uint32_t samplerKind() const = 0;
+
     /// Largest width * height that render() takes.
     virtual uint32_t maxTilePixels() const = 0;
 

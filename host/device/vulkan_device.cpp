@@ -1,6 +1,7 @@
 // The Device that runs the path tracing kernels on Vulkan.
 #include "device/bounded_work.h"
 #include "device/exact_math.h"
+#include "device/scene_features.h"
 #include "device/vulkan_adaptive.h"
 #include "device/vulkan_limits.h"
 #include "device/vulkan_scene.h"
@@ -40,22 +41,6 @@ std::string tileName(const TileRequest& tile)
                        uint64_t{tile.firstSample} + tile.sampleCount - 1);
 }
 
-/// What of a scene the kernels are made for.
-struct PipelineTraits {
-    uint32_t stackSize = 0;  ///< 0: no pipeline yet
-    bool texel = false;      ///< buffers of texels rather than storage buffers
-    bool instances = false;
-    bool glossy = false;
-
-    bool operator==(const PipelineTraits&) const = default;
-};
-
-bool hasGlossy(const DeviceScene& scene)
-{
-    return std::any_of(scene.materials.begin(), scene.materials.end(),
-                       [](const Material& m) { return m.type >= MATERIAL_ROUGH_CONDUCTOR; });
-}
-
 class VulkanDevice final : public Device {
 public:
     VulkanDevice(std::unique_ptr<Context> context, const DeviceOptions& options);
@@ -66,6 +51,7 @@ public:
     void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override;
     std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,
                                                    const AdaptiveRule& rule) override;
+    uint32_t samplerKind() const override { return samplerKind_; }
     uint32_t maxTilePixels() const override { return tilePixelLimit(context_->physical, group_); }
     uint64_t maxAdaptivePixels() const override { return adaptivePixelLimit(context_->physical); }
     DeviceStatistics statistics() const override { return statistics_; }
@@ -73,7 +59,7 @@ public:
 private:
     ComputePipeline makePipeline(const std::string& kernel, uint32_t bindingCount,
                                  uint32_t pushConstantBytes = sizeof(Dispatch)) const;
-    void preparePipeline(const PipelineTraits& traits);
+    void preparePipeline(bool texel, const SceneFeatures& features, uint32_t stackSize);
     void prepareTileBuffers(size_t pixels);
     void prepareFirstHits(size_t pixels);
     void bindAll(ComputePipeline& pipeline);
@@ -91,8 +77,11 @@ private:
     ComputePipeline pipeline_;
     ComputePipeline firstHitsPipeline_;          // made when first asked for
     const ComputePipeline* active_ = nullptr;    // the one of the two that dispatches use
-    PipelineTraits traits_;  // of the pipelines
+    bool pipelineTexel_ = false;
+    SceneFeatures pipelineFeatures_;
+    uint32_t pipelineStack_ = 0;  // 0: no pipeline yet
     std::unique_ptr<VulkanScene> scene_;
+    uint32_t samplerKind_ = SAMPLER_INDEPENDENT;
     Buffer pixels_, suspended_;   // as large as the largest tile so far
     Buffer firstHits_;
     bool bound_ = false;           // pipeline_'s descriptor set holds the buffers above
@@ -124,8 +113,9 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     auto start = std::chrono::steady_clock::now();
     auto uploaded = std::make_unique<VulkanScene>(uploadScene(*context_, scene, options_.buffers));
     statistics_.uploadSeconds += secondsSince(start);
-    preparePipeline({stackSize, uploaded->texel, !scene.instances.empty(), hasGlossy(scene)});
+    preparePipeline(uploaded->texel, featuresOf(scene), stackSize);
     scene_ = std::move(uploaded);
+    samplerKind_ = scene.frame.samplerKind;
     statistics_.sceneBytes = scene_->bytes;
     statistics_.texelBuffers = scene_->texel;
 }
@@ -135,9 +125,9 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
                                            uint32_t pushConstantBytes) const
 {
     PipelineRequest request;
-    request.name = kernel + (traits_.texel ? "_texel" : "_storage");
+    request.name = kernel + (pipelineTexel_ ? "_texel" : "_storage");
     request.spirv = kernelSpirv(request.name);
-    request.bindings.assign(SCENE_BUFFER_COUNT, traits_.texel
+    request.bindings.assign(SCENE_BUFFER_COUNT, pipelineTexel_
                                                     ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
                                                     : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     request.bindings[BINDING_INSTANCES] = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
@@ -147,24 +137,28 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     request.specialisation.resize(SPEC_COUNT);
     request.specialisation[SPEC_GROUP_WIDTH] = group_[0];
     request.specialisation[SPEC_GROUP_HEIGHT] = group_[1];
-    request.specialisation[SPEC_STACK_SIZE] = traits_.stackSize;
+    request.specialisation[SPEC_STACK_SIZE] = pipelineStack_;
     request.specialisation[SPEC_ORDER] = options_.traversalOrder;
     request.specialisation[SPEC_EXACT_MATH] = statistics_.exactMath ? 1 : 0;
-    request.specialisation[SPEC_INSTANCES] = traits_.instances ? 1 : 0;
+    request.specialisation[SPEC_INSTANCES] = pipelineFeatures_.instances ? 1 : 0;
+    request.specialisation[SPEC_TEXTURES] = pipelineFeatures_.textures ? 1 : 0;
+    request.specialisation[SPEC_CUTOUTS] = pipelineFeatures_.cutouts ? 1 : 0;
     return createComputePipeline(*context_, request);
 }
 
-void VulkanDevice::preparePipeline(const PipelineTraits& traits)
+void VulkanDevice::preparePipeline(bool texel, const SceneFeatures& features, uint32_t stackSize)
 {
-    if (traits_ == traits) return;
-    traits_ = traits;
+    if (pipelineStack_ == stackSize && pipelineTexel_ == texel && pipelineFeatures_ == features) return;
+    pipelineStack_ = stackSize;
+    pipelineTexel_ = texel;
+    pipelineFeatures_ = features;
     firstHitsPipeline_ = {};
     firstHitsBound_ = false;
     adaptive_ = {};
     try {
-        pipeline_ = makePipeline(traits_.glossy ? "path_glossy" : "path", BINDING_COUNT);
+        pipeline_ = makePipeline(features.glossy ? "path_glossy" : "path", BINDING_COUNT);
     } catch (...) {
-        traits_ = {};
+        pipelineStack_ = 0;
         throw;
     }
 }
@@ -185,7 +179,7 @@ void VulkanDevice::prepareTileBuffers(size_t pixels)
 
 void VulkanDevice::prepareFirstHits(size_t pixels)
 {
-    uint32_t storageBuffers = (traits_.texel ? 0 : SCENE_BUFFER_COUNT - 1) + 3;
+    uint32_t storageBuffers = (pipelineTexel_ ? 0 : SCENE_BUFFER_COUNT - 1) + 3;
     uint32_t allowed = context_->physical.properties.limits.maxPerStageDescriptorStorageBuffers;
     if (storageBuffers > allowed)
         throw Error(ErrorKind::noDevice,
@@ -261,9 +255,9 @@ std::unique_ptr<AdaptivePicture> VulkanDevice::beginAdaptive(const AdaptiveWindo
 {
     if (!scene_) throw usageError("adaptive sampling on '{}' without a scene", context_->physical.name);
     if (!adaptive_) {
-        ComputePipeline path =
-            makePipeline(traits_.glossy ? "adaptive_path_glossy" : "adaptive_path", BINDING_COUNT,
-                         sizeof(AdaptiveDispatch));
+        const bool glossy = pipelineFeatures_.glossy;
+        ComputePipeline path = makePipeline(glossy ? "adaptive_path_glossy" : "adaptive_path",
+                                            BINDING_COUNT, sizeof(AdaptiveDispatch));
         adaptive_ = std::make_unique<AdaptivePipelines>(
             makeAdaptivePipelines(*context_, std::move(path), group_, statistics_.exactMath));
     }
@@ -275,14 +269,14 @@ std::unique_ptr<AdaptivePicture> VulkanDevice::beginAdaptive(const AdaptiveWindo
         prepareTileBuffers(pixels);
     };
     AdaptiveHost host = {*context_, *adaptive_,  *scene_,        suspended_,
-                         work_,     statistics_, traits_.stackSize, prepareTile};
+                         work_,     statistics_, pipelineStack_, prepareTile};
     return makeVulkanAdaptivePicture(host, window, rule);
 }
 
 void VulkanDevice::renderBlocks(const TileRequest& tile, std::span<PixelBlock> blocks)
 {
     RoundState state = runRound(tile, tile.sampleCount, true, blocks);
-    work_.finish({tileName(tile), scene_->stepsPerSample, traits_.stackSize}, state,
+    work_.finish({tileName(tile), scene_->stepsPerSample, pipelineStack_}, state,
                  [&](uint32_t dispatches) { return runRound(tile, dispatches, false, blocks); });
 }
 

@@ -17,6 +17,7 @@ void Counters::add(const Counters& other)
     primitiveTests += other.primitiveTests;
     bounces += other.bounces;
     badSamples += other.badSamples;
+    clamped += other.clamped;
 }
 
 namespace {
@@ -54,6 +55,7 @@ Counters countersOf(const PixelBlock& block)
     counters.primitiveTests = block.primitiveTests;
     counters.bounces = block.bounces;
     counters.badSamples = block.badSamples;
+    counters.clamped = block.clamped;
     return counters;
 }
 
@@ -97,6 +99,7 @@ Counters countersOf(const FilmPixel& pixel)
     counters.primitiveTests = countOf(pixel.primitiveTests);
     counters.bounces = countOf(pixel.bounces);
     counters.badSamples = pixel.badSamples;
+    counters.clamped = countOf(pixel.clamped);
     return counters;
 }
 
@@ -155,6 +158,9 @@ void Film::merge(const Film& other)
     if (width != other.width || height != other.height) {
         throw badInput("films of {} x {} and {} x {} pixels cannot be merged", width, height,
                        other.width, other.height);
+    }
+    if (varianceOverBlocks != other.varianceOverBlocks) {
+        throw badInput("films of different samplers cannot be merged");
     }
     for (int h = 0; h < 2; h++) {
         for (size_t i = 0; i < half[h].size(); i++) {

@@ -26,7 +26,8 @@ struct Fixed64x64 {
 /// One half (A or B) of a pixel.
 struct HalfPixel {
     Fixed64x64 sum[3];  ///< radiance of all samples, RGB
-    Fixed64x64 sumY2;   ///< squared luminance of the replicates (single samples)
+    Fixed64x64 sumY2;   ///< of the replicates (Film::varianceOverBlocks): samples in it times squared
+                        ///< luminance of its mean
     uint32_t samples = 0;
     bool operator==(const HalfPixel&) const = default;
 };
@@ -40,6 +41,7 @@ struct Counters {
     uint64_t primitiveTests = 0;
     uint64_t bounces = 0;
     uint64_t badSamples = 0;
+    uint64_t clamped = 0;  ///< contributions of light that were clamped
     bool operator==(const Counters&) const = default;
     void add(const Counters& other);
 };
@@ -63,6 +65,9 @@ struct Film {
     /// The picture is the mean of the halves' means rather than of all samples: where one half's samples
     /// decided how many the other has, any other weight would bias it (the rule `crossed`).
     bool halvesWeighEqually = false;
+    /// Replicates, whose spread tells how noisy the picture is: whole blocks of samples, which the sampler
+    /// `sobol` ties together, or single samples.
+    bool varianceOverBlocks = false;
 
     /// Adds the blocks of a tile whose samples start at `firstSample`, a multiple of BLOCK_SIZE.
     void add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight, uint32_t firstSample,

@@ -1,5 +1,7 @@
 #include "film/film_error.h"
 
+#include "film/sample_ranges.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,11 +12,12 @@ namespace {
 
 /// Sums of samples, and their mean luminance.
 struct Luminances {
-    double samples = 0, sum = 0, sumOfSquares = 0;
+    double samples = 0, replicates = 0, sum = 0, sumOfSquares = 0;
 
-    void add(const HalfPixel& half)
+    void add(const HalfPixel& half, bool overBlocks)
     {
         samples += half.samples;
+        replicates += overBlocks ? blocksIn(half.samples) : half.samples;
         sum += 0.2126 * half.sum[0].toDouble() + 0.7152 * half.sum[1].toDouble() +
                0.0722 * half.sum[2].toDouble();
         sumOfSquares += half.sumY2.toDouble();
@@ -22,11 +25,13 @@ struct Luminances {
 
     double mean() const { return samples > 0 ? sum / samples : 0; }
 
+    /// Replicates r of n_r samples and mean y_r spread around the mean by sum n_r (y_r - y)^2. That is R - 1
+    /// times n_r Var(y_r), whose share of the mean's variance is 1 / samples.
     double varianceOfMean() const
     {
-        if (samples < 2) return 0;
+        if (replicates < 2) return 0;
         const double spread = sumOfSquares / samples - mean() * mean();
-        return std::fmax(0, spread / (samples - 1));
+        return std::fmax(0, spread / (replicates - 1));
     }
 };
 
@@ -35,15 +40,18 @@ struct Luminances {
 PixelStatistics pixelStatistics(const Film& film, size_t pixel)
 {
     Luminances a, b;
-    a.add(film.half[0][pixel]);
-    b.add(film.half[1][pixel]);
-    if (film.halvesWeighEqually && a.samples > 0 && b.samples > 0) {
-        return {a.samples + b.samples, (a.mean() + b.mean()) / 2,
-                (a.varianceOfMean() + b.varianceOfMean()) / 4};
-    }
+    a.add(film.half[0][pixel], film.varianceOverBlocks);
+    b.add(film.half[1][pixel], film.varianceOverBlocks);
     Luminances both = a;
-    both.add(film.half[1][pixel]);
-    return {both.samples, both.mean(), both.varianceOfMean()};
+    both.add(film.half[1][pixel], film.varianceOverBlocks);
+    if (!film.halvesWeighEqually || !(a.samples > 0) || !(b.samples > 0))
+        return {both.samples, both.replicates, both.mean(), both.varianceOfMean()};
+    double variance = (a.varianceOfMean() + b.varianceOfMean()) / 4;
+    if (a.replicates < 2 || b.replicates < 2) {
+        // A half that does not know its own spread has that of both.
+        variance = both.varianceOfMean() * both.samples * (1 / a.samples + 1 / b.samples) / 4;
+    }
+    return {both.samples, both.replicates, (a.mean() + b.mean()) / 2, variance};
 }
 
 std::vector<double> pixelErrors(const Film& film)
@@ -65,7 +73,7 @@ std::vector<double> pixelErrors(const Film& film)
     for (const PixelStatistics& pixel : statistics) {
         const double relativeTo = std::fmax(pixel.luminance, floor);
         const double error = relativeTo > 0 ? std::sqrt(pixel.varianceOfMean) / relativeTo : 0;
-        errors.push_back(pixel.samples < 2 ? std::numeric_limits<double>::infinity() : error);
+        errors.push_back(pixel.replicates < 2 ? std::numeric_limits<double>::infinity() : error);
     }
     return errors;
 }
@@ -94,7 +102,7 @@ double relativeError(const Film& film)
     size_t pixels = film.half[0].size();
     for (size_t i = 0; i < pixels; i++) {
         PixelStatistics pixel = pixelStatistics(film, i);
-        if (pixel.samples < 2) return 0;
+        if (pixel.replicates < 2) return 0;
         sumOfMeans += pixel.luminance;
         sumOfVariances += pixel.varianceOfMean;
     }

@@ -7,14 +7,18 @@ namespace sahl {
 
 struct PixelStatistics {
     double samples = 0;         ///< of both halves
+    double replicates = 0;      ///< whose spread is known: samples, or blocks of them
     double luminance = 0;       ///< mean
-    double varianceOfMean = 0;  ///< from the spread of the samples; 0 with fewer than 2
+    double varianceOfMean = 0;  ///< from the spread of the replicates; 0 with fewer than 2
 };
 
+/// Blocks are weighed by the samples in them. A last block that is not full is noisier than others of its
+/// weight, since it has not all of its strata: that makes the variance stated larger than it is, and never
+/// smaller.
 PixelStatistics pixelStatistics(const Film& film, size_t pixel);
 
 /// One standard error of each pixel's luminance, relative to that or to 1 % of the median of all pixels'
-/// luminances where that is more. Infinite where a pixel has fewer than 2 samples; 0 where its samples, or
+/// luminances where that is more. Infinite where a pixel has fewer than 2 replicates; 0 where its samples, or
 /// all pixels, are black.
 std::vector<double> pixelErrors(const Film& film);
 
@@ -27,8 +31,8 @@ struct FilmError {
 FilmError filmError(const Film& film, double target);
 
 /// One standard error of a pixel's luminance, root mean square over all pixels, relative to the mean
-/// luminance of the picture. From the spread of the single samples. 0 with fewer than 2 samples a
-/// pixel or for a black picture.
+/// luminance of the picture. From the spread of the replicates. 0 with fewer than 2 of them a pixel or for
+/// a black picture.
 double relativeError(const Film& film);
 
 }  // namespace sahl

@@ -29,6 +29,7 @@ constexpr std::array COUNTERS = {
     NamedCounter{"primitiveTests", &Counters::primitiveTests},
     NamedCounter{"bounces", &Counters::bounces},
     NamedCounter{"badSamples", &Counters::badSamples},
+    NamedCounter{"clamped", &Counters::clamped},
 };
 
 /// "cameraRays=3072 indirectRays=..."

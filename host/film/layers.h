@@ -21,9 +21,9 @@ std::vector<ImageChannel> firstHitChannels(std::span<const FirstHits> hits, uint
 
 /// What the film knows of each pixel:
 ///   samples.Y         number of samples
-///   variance.Y        of the mean luminance, estimated from the spread of the samples; 0 with fewer than 2
+///   variance.Y        of the mean luminance, estimated from the spread of the replicates; 0 with fewer than 2
 ///   error.Y           one standard error of the luminance by that, relative: see pixelErrors(); 0 with
-///                     fewer than 2 samples
+///                     fewer than 2 replicates
 ///   nodeVisits.Y      inner nodes that the rays of all samples visited; a visit is two box tests
 ///   primitiveTests.Y  triangles and spheres that they were tested against
 std::vector<ImageChannel> statisticsChannels(const Film& film);

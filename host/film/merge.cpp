@@ -229,6 +229,7 @@ MergedFilm mergeFilms(std::vector<FilmFile> files, bool allowGaps)
     merged.metadata = metadataOfAll(files, merged.label);
     merged.place = first.place;
     merged.film = Film(first.width, first.height);
+    merged.film.varianceOverBlocks = files[0].attribute("sahl.varianceOver") == "blocks";
     for (const FilmFile& file : files) addFilmOf(file, merged.film);
     merged.firstHits = readFirstHits(files[0]);
     return merged;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "image/image.h"
+#include "image/texel_image.h"
 
 #include <span>
 #include <string_view>
@@ -28,5 +29,11 @@ Image makeImage(const ImageFile& file, int64_t width, int64_t height);
 Image decodePfm(const ImageFile& file);
 Image decodeHdr(const ImageFile& file);
 Image decodeExr(const ImageFile& file);
+
+/// A picture of that size for decodeTexels, whose limits are checked.
+TexelImage makeTexelImage(const ImageFile& file, int64_t width, int64_t height);
+
+TexelImage decodePngTexels(const ImageFile& file);
+TexelImage decodeJpegTexels(const ImageFile& file);
 
 }  // namespace sahl

@@ -43,9 +43,14 @@ void takeBytes(png_structp png, png_bytep target, size_t size)
 
 void ignoreWarning(png_structp, png_const_charp) {}
 
-/// Asks for RGB of 16 bits in the byte order of the file. No object with a destructor lives in
-/// here.
-bool readHeader(png_structp png, png_infop info, PngInfo& result)
+/// How the values of a row are wanted.
+enum class Row {
+    rgb16,  ///< 6 bytes a pixel, in the byte order of the file
+    rgba8,  ///< 4 bytes a pixel
+};
+
+/// No object with a destructor lives in here.
+bool readHeader(png_structp png, png_infop info, Row row, PngInfo& result)
 {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     png_read_info(png, info);
@@ -53,9 +58,15 @@ bool readHeader(png_structp png, png_infop info, PngInfo& result)
     result.height = png_get_image_height(png, info);
     result.hadAlpha = (png_get_color_type(png, info) & PNG_COLOR_MASK_ALPHA) != 0 ||
                       png_get_valid(png, info, PNG_INFO_tRNS) != 0;
-    png_set_expand_16(png);
+    if (row == Row::rgb16) {
+        png_set_expand_16(png);
+        png_set_strip_alpha(png);
+    } else {
+        png_set_expand(png);
+        png_set_scale_16(png);
+        png_set_add_alpha(png, 255, PNG_FILLER_AFTER);
+    }
     png_set_gray_to_rgb(png);
-    png_set_strip_alpha(png);
     png_set_interlace_handling(png);
     png_read_update_info(png, info);
     return true;
@@ -99,6 +110,24 @@ struct PngReader {
     PngReader& operator=(const PngReader&) = delete;
 };
 
+Error damagedPng(const ImageFile& file, const std::string& finding)
+{
+    return badInput("{}: damaged PNG: {}", file.name, finding);
+}
+
+/// Reads all rows, one behind the other.
+std::vector<uint8_t> readBody(const ImageFile& file, PngReader& reader, const PngInput& input,
+                              size_t rowBytes, size_t height)
+{
+    if (png_get_rowbytes(reader.png, reader.info) != rowBytes)
+        throw damagedPng(file, "rows of an unexpected length");
+    std::vector<uint8_t> bytes(rowBytes * height);
+    std::vector<png_bytep> rows;
+    for (size_t y = 0; y < height; y++) rows.push_back(bytes.data() + y * rowBytes);
+    if (!readRows(reader.png, reader.info, rows.data())) throw damagedPng(file, input.failure);
+    return bytes;
+}
+
 }  // namespace
 
 PngPicture readPngPicture(const fs::path& path)
@@ -108,28 +137,35 @@ PngPicture readPngPicture(const fs::path& path)
     PngInput input = {bytes, 0, {}};
     PngReader reader(input);
     PngInfo info;
-    if (!readHeader(reader.png, reader.info, info)) {
-        throw badInput("{}: damaged PNG: {}", file.name, input.failure);
-    }
+    if (!readHeader(reader.png, reader.info, Row::rgb16, info))
+        throw damagedPng(file, input.failure);
     PngPicture picture;
     picture.hadAlpha = info.hadAlpha;
     picture.srgb = makeImage(file, info.width, info.height);
-    const size_t rowBytes = size_t{6} * info.width;
-    if (png_get_rowbytes(reader.png, reader.info) != rowBytes) {
-        throw badInput("{}: damaged PNG: rows of an unexpected length", file.name);
-    }
-    std::vector<uint8_t> words(rowBytes * info.height);
-    std::vector<png_bytep> rows;
-    for (size_t y = 0; y < info.height; y++) rows.push_back(words.data() + y * rowBytes);
-    if (!readRows(reader.png, reader.info, rows.data())) {
-        throw badInput("{}: damaged PNG: {}", file.name, input.failure);
-    }
+    const std::vector<uint8_t> words =
+        readBody(file, reader, input, size_t{6} * info.width, info.height);
     for (size_t i = 0; i < picture.srgb.rgb.size(); i++) {
         const int value = words[2 * i] << 8 | words[2 * i + 1];
         picture.srgb.rgb[i] = static_cast<float>(value) / 65535.0f;
     }
     picture.metadata = textsOf(reader.png, reader.info);
     return picture;
+}
+
+TexelImage decodePngTexels(const ImageFile& file)
+{
+    PngInput input = {file.bytes, 0, {}};
+    PngReader reader(input);
+    PngInfo info;
+    if (!readHeader(reader.png, reader.info, Row::rgba8, info))
+        throw damagedPng(file, input.failure);
+    TexelImage image = makeTexelImage(file, info.width, info.height);
+    const std::vector<uint8_t> bytes =
+        readBody(file, reader, input, size_t{4} * info.width, info.height);
+    for (size_t i = 0; i < image.rgba.size(); i++)
+        image.rgba[i] =
+            packTexel(bytes[4 * i], bytes[4 * i + 1], bytes[4 * i + 2], bytes[4 * i + 3]);
+    return image;
 }
 
 }  // namespace sahl

@@ -28,6 +28,9 @@ constexpr double SRGB_GAMMA = 0;
 /// The sRGB curve (IEC 61966-2-1) of a value in [0,1].
 double srgbFromLinear(double linear);
 
+/// Its inverse.
+double linearFromSrgb(double srgb);
+
 /// A tone map that has been fitted to a picture: what it does to one value.
 struct ToneCurve {
     ToneOperator op = ToneOperator::exposure;

@@ -21,12 +21,14 @@ namespace sahl::reference {
 using namespace glm;  // GLSL's names: floor, sqrt, floatBitsToUint, ...
 
 /// One invocation. Order is one of ORDER_*. Scenes without instances are rendered without Instances,
-/// which takes a few per cent less time and changes nothing else.
-template <uint Order = ORDER_NEAR_FIRST, bool Instances = true>
+/// which takes a few per cent less time and changes nothing else; likewise those without textures.
+template <uint Order = ORDER_NEAR_FIRST, bool Instances = true, bool Textures = false>
 struct Kernel {
     static constexpr uint STACK_SIZE = MAX_STACK_SIZE;
     static constexpr uint TRAVERSAL_ORDER = Order;
     static constexpr bool HAS_INSTANCES = Instances;
+    static constexpr bool HAS_TEXTURES = Textures;
+    static constexpr bool HAS_CUTOUTS = Textures;
     static constexpr bool EXACT_MATH = false;  // C++ divides and takes roots exactly anyway
 
     std::span<const BvhNode> nodes;
@@ -50,8 +52,7 @@ struct Kernel {
     const AliasEntry& loadAliasEntry(uint index) const { return aliasEntries[index]; }
     const Texture& loadTexture(uint index) const { return textures[index]; }
     uint loadTextureTexel(uint index) const { return textureTexels[index]; }
-    vec3 loadProbeTexel(uint index) const { return vec3(probeTexels[index]); }
-    float loadProbeWeight(uint index) const { return probeTexels[index].w; }
+    const vec4& loadProbeTexel(uint index) const { return probeTexels[index]; }
 
     // Of adaptive sampling: of all pixels of a picture, top row first.
     std::span<const PixelEstimate> estimates;

@@ -9,10 +9,10 @@ namespace sahl::reference {
 
 namespace {
 
-template <uint Order, bool Instances>
-Kernel<Order, Instances> kernelFor(const DeviceScene& scene)
+template <uint Order, bool Instances, bool Textures>
+Kernel<Order, Instances, Textures> kernelFor(const DeviceScene& scene)
 {
-    Kernel<Order, Instances> kernel = {};
+    Kernel<Order, Instances, Textures> kernel = {};
     kernel.nodes = scene.nodes;
     kernel.primitives = scene.primitives;
     kernel.triangleCorners = scene.triangleCorners;
@@ -27,12 +27,12 @@ Kernel<Order, Instances> kernelFor(const DeviceScene& scene)
     return kernel;
 }
 
-template <uint Order, bool Instances = true>
+template <uint Order, bool Instances = true, bool Textures = true>
 void renderTileInOrder(const DeviceScene& scene, const TileRequest& tile, unsigned threads,
                        std::span<PixelBlock> blocks)
 {
     parallelFor(tile.height, threads, [&](size_t row) {
-        auto kernel = kernelFor<Order, Instances>(scene);
+        auto kernel = kernelFor<Order, Instances, Textures>(scene);
         for (uint x = 0; x < tile.width; x++) {
             PixelBlock block = {};
             for (uint i = 0; i < tile.sampleCount; i++) {
@@ -44,14 +44,14 @@ void renderTileInOrder(const DeviceScene& scene, const TileRequest& tile, unsign
     });
 }
 
-template <uint Order, bool Instances = true>
+template <uint Order, bool Instances = true, bool Textures = true>
 void renderPassInOrder(const DeviceScene& scene, const TileRequest& tile, const AdaptiveRule& rule,
                        uint pass, unsigned threads, std::span<const uint32_t> queue,
                        std::span<AdaptivePixel> pixels)
 {
     constexpr size_t CHUNK = 64;  // pixels, since making a kernel is not free
     parallelFor((queue.size() + CHUNK - 1) / CHUNK, threads, [&](size_t chunk) {
-        auto kernel = kernelFor<Order, Instances>(scene);
+        auto kernel = kernelFor<Order, Instances, Textures>(scene);
         size_t first = chunk * CHUNK;
         for (uint32_t i : queue.subspan(first, std::min(CHUNK, queue.size() - first))) {
             kernel.renderBlock(tile.x + i % tile.width, tile.y + i / tile.width, pass, rule, pixels[i]);
@@ -72,9 +72,11 @@ void renderAdaptivePass(const DeviceScene& scene, const TileRequest& tile, const
         return renderPassInOrder<ORDER_RIGHT_FIRST>(scene, tile, rule, pass, threads, queue, pixels);
     default: break;
     }
+    if (!scene.textures.empty())
+        return renderPassInOrder<ORDER_NEAR_FIRST>(scene, tile, rule, pass, threads, queue, pixels);
     if (scene.instances.empty())
-        return renderPassInOrder<ORDER_NEAR_FIRST, false>(scene, tile, rule, pass, threads, queue, pixels);
-    renderPassInOrder<ORDER_NEAR_FIRST, true>(scene, tile, rule, pass, threads, queue, pixels);
+        return renderPassInOrder<ORDER_NEAR_FIRST, false, false>(scene, tile, rule, pass, threads, queue, pixels);
+    renderPassInOrder<ORDER_NEAR_FIRST, true, false>(scene, tile, rule, pass, threads, queue, pixels);
 }
 
 void foldBlocks(std::span<const uint32_t> queue, std::span<AdaptivePixel> pixels)
@@ -152,7 +154,7 @@ void renderFirstHits(const DeviceScene& scene, const TileRequest& tile, unsigned
                      std::span<FirstHits> pixels)
 {
     parallelFor(tile.height, threads, [&](size_t row) {
-        auto kernel = kernelFor<ORDER_NEAR_FIRST, true>(scene);
+        auto kernel = kernelFor<ORDER_NEAR_FIRST, true, true>(scene);
         for (uint x = 0; x < tile.width; x++) {
             FirstHits sums = kernel.noFirstHits();
             for (uint i = 0; i < tile.sampleCount; i++) {
@@ -172,9 +174,10 @@ void renderTile(const DeviceScene& scene, const TileRequest& tile, uint order, u
     case ORDER_RIGHT_FIRST: return renderTileInOrder<ORDER_RIGHT_FIRST>(scene, tile, threads, blocks);
     default: break;
     }
+    if (!scene.textures.empty()) return renderTileInOrder<ORDER_NEAR_FIRST>(scene, tile, threads, blocks);
     if (scene.instances.empty())
-        return renderTileInOrder<ORDER_NEAR_FIRST, false>(scene, tile, threads, blocks);
-    renderTileInOrder<ORDER_NEAR_FIRST, true>(scene, tile, threads, blocks);
+        return renderTileInOrder<ORDER_NEAR_FIRST, false, false>(scene, tile, threads, blocks);
+    renderTileInOrder<ORDER_NEAR_FIRST, true, false>(scene, tile, threads, blocks);
 }
 
 std::string compilerName()

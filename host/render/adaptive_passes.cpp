@@ -8,6 +8,12 @@ namespace sahl {
 
 namespace {
 
+AdaptiveRule onSampler(AdaptiveRule rule, const Device& device)
+{
+    rule.overBlocks = device.samplerKind() == SAMPLER_SOBOL ? 1 : 0;
+    return rule;
+}
+
 /// The upper one of two in the middle.
 float floorOf(std::vector<float> luminances)
 {
@@ -32,9 +38,9 @@ AdaptiveFloors floorsOf(std::span<const PixelEstimate> estimates)
 
 AdaptivePasses::AdaptivePasses(Device& device, const AdaptiveWindow& window,
                                std::span<const TileRequest> tiles, const AdaptiveRule& rule)
-    : rule_(rule),
+    : rule_(onSampler(rule, device)),
       estimates_(looksAtNeighbours(rule) ? size_t{window.width} * window.height : 0),
-      picture_(device.beginAdaptive(window, rule))
+      picture_(device.beginAdaptive(window, rule_))
 {
     for (const TileRequest& tile : tiles) {
         tiles_.push_back({tile, picture_->beginTile(tile), tile.width * tile.height, 0});

@@ -1,6 +1,9 @@
 #include "render/prepare.h"
 
+#include "scene/probe_weights.h"
+
 #include <algorithm>
+#include <utility>
 
 namespace sahl {
 
@@ -13,7 +16,6 @@ DeviceScene ownArrays(const Scene& scene, const Bvh& bvh)
     view.primitives = bvh.primitives;
     view.triangleCorners = scene.triangleCorners;
     view.materials = scene.materials;
-    view.lights = scene.lights;
     view.textures = scene.textures;
     view.textureTexels = scene.textureTexels;
     view.instances = bvh.instances;
@@ -26,6 +28,13 @@ DeviceScene PreparedScene::deviceScene() const
 {
     DeviceScene view = borrowed ? *borrowed : ownArrays(scene, bvh);
     if (!borrowed || !scene.probeTexels.empty()) view.probeTexels = scene.probeTexels;
+    view.lights = sceneLights();
+    view.frame.lightCount = static_cast<uint>(view.lights.size());
+    if (!lightTable.lights.empty()) view.lights = lightTable.lights;
+    view.aliasEntries = lightTable.entries;
+    view.frame.choiceCount = lightTable.choiceCount;
+    view.frame.lightPerPower = lightTable.lightPerPower;
+    view.frame.probeChance = lightTable.probeChance;
     view.treeDepth = bvh.statistics.depth;
     view.frame.camera = scene.camera;
     view.frame.probe = scene.probe;
@@ -35,7 +44,6 @@ DeviceScene PreparedScene::deviceScene() const
     view.frame.seed = scene.settings.seed;
     view.frame.maxBounces = scene.settings.maxBounces;
     view.frame.rootRef = bvh.rootRef;
-    view.frame.lightCount = static_cast<uint>(view.lights.size());
     view.frame.integrator = scene.settings.integrator;
     view.frame.jitter = scene.settings.jitter ? 1 : 0;
     view.frame.ambient = scene.settings.ambient;
@@ -56,6 +64,19 @@ double reachOf(const Camera& camera)
     return std::max({p.x, p.y, p.z});
 }
 
+void prepareLights(PreparedScene& prepared)
+{
+    prepared.lightTable = {};
+    const DeviceScene scene = prepared.deviceScene();
+    prepared.lightTable = makeLightTable(scene);
+    const auto masses = std::exchange(prepared.lightTable.texelMasses, {});
+    if (masses.empty() || hasTexelWeights(scene.frame.probe, masses, scene.probeTexels)) return;
+    std::vector<vec4>& texels = prepared.scene.probeTexels;
+    // Those of a mapped file cannot be written to
+    if (texels.empty()) texels.assign(scene.probeTexels.begin(), scene.probeTexels.end());
+    writeTexelWeights(scene.frame.probe, masses, texels);
+}
+
 PreparedScene prepareScene(Scene scene, BvhBuild build, unsigned threads)
 {
     PreparedScene prepared;
@@ -71,6 +92,7 @@ PreparedScene prepareScene(Scene scene, BvhBuild build, unsigned threads)
     prepared.scene.instances = {};
     for (const ObjectInstance& instance : prepared.bvh.instances)
         prepared.scene.objectStarts.push_back(instance.firstNumber);
+    prepareLights(prepared);
     return prepared;
 }
 

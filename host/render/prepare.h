@@ -3,6 +3,7 @@
 
 #include "bvh/bvh.h"
 #include "device/device.h"
+#include "render/light_table.h"
 #include "scene/scene.h"
 
 #include <memory>
@@ -21,6 +22,11 @@ struct PreparedScene {
     std::optional<DeviceScene> borrowed;
     std::shared_ptr<const MappedFile> file;
 
+    LightTable lightTable;  ///< see prepareLights()
+
+    /// The lights of the scene file: point, spot, directional.
+    std::span<const Light> sceneLights() const { return borrowed ? borrowed->lights : scene.lights; }
+
     /// Views into this object, which must outlive the device's use of them.
     DeviceScene deviceScene() const;
 };
@@ -29,6 +35,11 @@ struct PreparedScene {
 /// rays from no farther away (bvh/instances.h).
 double reachOf(const Camera& camera);
 
+/// Makes the light table, and the weights of the probe's texels, by the scene's settings. Called by those
+/// who make prepared scenes; to be called again when lights, probe or settings.lightSampling change.
+void prepareLights(PreparedScene& prepared);
+
+/// Builds the tree and prepares the lights.
 PreparedScene prepareScene(Scene scene, BvhBuild build, unsigned threads);
 
 }  // namespace sahl

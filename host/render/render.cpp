@@ -74,6 +74,7 @@ RenderResult renderPicture(Device& device, const RenderPlan& plan,
     };
 
     RenderResult result = {Film(plan.width, plan.height), 0, false, 0};
+    result.film.varianceOverBlocks = device.samplerKind() == SAMPLER_SOBOL;
     RenderProgress progress;
     double allSamples = double(plan.width) * plan.height * plan.sampleCount;
     double samplesDone = 0;

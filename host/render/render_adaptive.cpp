@@ -42,6 +42,7 @@ public:
     {
         result_.adaptive.pixels = uint64_t{plan.width} * plan.height;
         result_.film.halvesWeighEqually = rule.rule == ADAPTIVE_CROSSED;
+        result_.film.varianceOverBlocks = device.samplerKind() == SAMPLER_SOBOL;
         samplesMissing_ = double(result_.adaptive.pixels) * rule.maxSamples;
     }
 

@@ -36,8 +36,19 @@ Frame withoutSettings(Frame frame)
     frame.integrator = frame.shading = 0;
     frame.samplerKind = frame.rouletteDepth = frame.lightSampling = 0;
     frame.clampIndirect = 0;
+    frame.choiceCount = 0;  // what follows from the rest, by how lights are sampled
+    frame.lightPerPower = frame.probeChance = 0;
     frame.rootRef = 0;
     return frame;
+}
+
+/// Those that follow them are shapes, which the primitives tell.
+std::vector<Light> lightsOfFile(const DeviceScene& scene)
+{
+    const auto first = scene.lights.first(scene.frame.lightCount);
+    std::vector<Light> lights(first.begin(), first.end());
+    for (Light& light : lights) light.chance = 0;
+    return lights;
 }
 
 uint64_t sceneHash(const DeviceScene& scene)
@@ -49,8 +60,7 @@ uint64_t sceneHash(const DeviceScene& scene)
     hash.add(std::as_bytes(std::span(&primitives, 1)));
     addArray(hash, scene.triangleCorners);
     addArray(hash, scene.materials);
-    addArray(hash, scene.lights);
-    addArray(hash, scene.aliasEntries);
+    addArray(hash, std::span<const Light>(lightsOfFile(scene)));
     addArray(hash, scene.textures);
     addArray(hash, scene.textureTexels);
     addArray(hash, scene.probeTexels);

@@ -106,6 +106,8 @@ VerifyResult verifyDevice(Device& device, Device& reference, const DeviceScene& 
     VerifyResult result;
     result.deviceFilm = Film(width, height);
     result.referenceFilm = Film(width, height);
+    result.deviceFilm.varianceOverBlocks = scene.frame.samplerKind == SAMPLER_SOBOL;
+    result.referenceFilm.varianceOverBlocks = result.deviceFilm.varianceOverBlocks;
     device.setScene(scene);
     reference.setScene(scene);
 

@@ -91,6 +91,8 @@ VerifyResult verifyAdaptive(Device& device, Device& reference, const DeviceScene
     reference.setScene(scene);
     result.deviceFilm.halvesWeighEqually = rule.rule == ADAPTIVE_CROSSED;
     result.referenceFilm.halvesWeighEqually = rule.rule == ADAPTIVE_CROSSED;
+    result.deviceFilm.varianceOverBlocks = scene.frame.samplerKind == SAMPLER_SOBOL;
+    result.referenceFilm.varianceOverBlocks = result.deviceFilm.varianceOverBlocks;
     Side ours = {device, result.deviceSeconds, result.deviceFilm};
     Side theirs = {reference, result.referenceSeconds, result.referenceFilm};
     std::optional<FirstPixel> first;

@@ -61,6 +61,48 @@ float vanishing(const Primitive& p)
     return (zero.x + zero.y) + zero.z;
 }
 
+/// Whether the texels of the texture are among as many, behind the curve.
+bool isWithin(const Texture& texture, uint64_t texels)
+{
+    constexpr uint MAX_SIDE = 1u << 15;
+    const uint64_t end = texture.firstTexel + uint64_t{texture.width} * texture.height;
+    return texture.firstTexel >= SRGB_TABLE_SIZE && texture.width >= 1 && texture.width <= MAX_SIDE &&
+           texture.height >= 1 && texture.height <= MAX_SIDE && end <= texels;
+}
+
+bool isSound(const Texture& texture)
+{
+    constexpr uint KNOWN = TEXTURE_SRGB | TEXTURE_CLAMP_S | TEXTURE_CLAMP_T | TEXTURE_NEAREST;
+    return (texture.flags & ~KNOWN) == 0 && isFinite(texture.rowS) && isFinite(texture.rowT) &&
+           isFinite(texture.strength) && isAmount(texture.mean);
+}
+
+void checkTextures(const std::string& file, const DeviceScene& scene)
+{
+    const std::span<const uint32_t> texels = scene.textureTexels;
+    for (size_t i = 0; i < scene.textures.size(); i++) {
+        const Texture& texture = scene.textures[i];
+        if (isSound(texture) && isWithin(texture, texels.size())) continue;
+        throw damaged(file, "textures",
+                      fmt::format("number {} has a number out of range, or texels that are not there", i));
+    }
+    float before = 0;
+    for (size_t i = 0; i < std::min<size_t>(SRGB_TABLE_SIZE, texels.size()); i++) {
+        const float value = std::bit_cast<float>(texels[i]);
+        if (!(value >= before && value <= 1))
+            throw damaged(file, "textureTexels", fmt::format("the sRGB curve falls at {}", i));
+        before = value;
+    }
+    for (size_t i = 0; i < scene.materials.size(); i++) {
+        const Material& m = scene.materials[i];
+        const uint largest =
+            std::max({m.baseColorTexture, m.roughnessTexture, m.normalTexture, m.emissionTexture});
+        if (largest <= scene.textures.size()) continue;
+        throw damaged(file, "materials",
+                      fmt::format("number {} has texture {} of {}", i, largest, scene.textures.size()));
+    }
+}
+
 void checkPrimitives(const std::string& file, const DeviceScene& scene)
 {
     auto wrong = [&](size_t i, const std::string& finding) {
@@ -89,6 +131,10 @@ void checkNormals(const std::string& file, std::span<const TriangleCorners> norm
     for (size_t i = 0; i < normals.size(); i++) {
         const TriangleCorners& n = normals[i];
         const bool flat = n.n0 == vec3(0) && n.n1 == vec3(0) && n.n2 == vec3(0);
+        if (!isFinite({n.u0, n.u1, n.u2}) || !isFinite({n.v0, n.v1, n.v2})) {
+            throw damaged(file, "corners",
+                          fmt::format("texture coordinates of number {} are not finite", i));
+        }
         if (flat || (isUnit(n.n0) && isUnit(n.n1) && isUnit(n.n2))) continue;
         throw damaged(file, "corners", fmt::format("those of number {} are not unit vectors", i));
     }
@@ -201,6 +247,7 @@ BvhStatistics checkArrays(const std::string& file, const DeviceScene& scene, uin
     checkPrimitives(file, scene);
     checkNormals(file, scene.triangleCorners);
     checkEach(file, "materials", scene.materials);
+    checkTextures(file, scene);
     checkEach(file, "lights", scene.lights);
     checkEach(file, "texels", scene.probeTexels);
     checkInstances(file, scene);

@@ -33,6 +33,8 @@ void forEachArray(SavedArrays& arrays, Action action)
     action("materials", arrays.device.materials);
     action("lights", arrays.device.lights);
     action("texels", arrays.device.probeTexels);
+    action("textures", arrays.device.textures);
+    action("textureTexels", arrays.device.textureTexels);
     action("instances", arrays.device.instances);
     action("objectStarts", arrays.objectStarts);
 }
@@ -135,6 +137,7 @@ void writeSavedScene(const PreparedScene& prepared, const fs::path& path)
     }
     std::vector<Section> sections = {{DESCRIPTION_SECTION, std::as_bytes(std::span(text)), 1}};
     SavedArrays arrays = {prepared.deviceScene(), prepared.scene.objectStarts};
+    arrays.device.lights = prepared.sceneLights();
     forEachArray(arrays, [&]<class Element>(const char* name, std::span<const Element> array) {
         sections.push_back({name, std::as_bytes(array), sizeof(Element)});
     });
@@ -168,6 +171,7 @@ PreparedScene loadSavedScene(const fs::path& path, const SceneOptions& options)
     const DeviceScene scene = prepared.deviceScene();
     checkFrame(file, scene.frame, scene.probeTexels.size());
     replaceProbe(options, prepared);
+    prepareLights(prepared);
     return prepared;
 }
 

@@ -1,6 +1,7 @@
 #include "saved/struct_json.h"
 
 #include <array>
+#include <limits>
 #include <variant>
 
 namespace sahl {
@@ -12,7 +13,7 @@ using Json = nlohmann::ordered_json;
 template <class Struct>
 struct Field {
     const char* name;
-    std::variant<vec3 Struct::*, float Struct::*> member;
+    std::variant<vec3 Struct::*, float Struct::*, uint Struct::*> member;
 };
 
 // Every field but `type`, which is a word. A new field of the struct needs a line here.
@@ -31,6 +32,16 @@ constexpr std::array MATERIAL_FIELDS = {
     Field<Material>{"metallic", &Material::metallic},
     Field<Material>{"transmission", &Material::transmission},
     Field<Material>{"alphaCutoff", &Material::alphaCutoff},
+    Field<Material>{"baseColorTexture", &Material::baseColorTexture},
+    Field<Material>{"roughnessTexture", &Material::roughnessTexture},
+    Field<Material>{"normalTexture", &Material::normalTexture},
+    Field<Material>{"emissionTexture", &Material::emissionTexture},
+};
+constexpr std::array TEXTURE_FIELDS = {
+    Field<Texture>{"firstTexel", &Texture::firstTexel}, Field<Texture>{"width", &Texture::width},
+    Field<Texture>{"height", &Texture::height},         Field<Texture>{"flags", &Texture::flags},
+    Field<Texture>{"rowS", &Texture::rowS},             Field<Texture>{"strength", &Texture::strength},
+    Field<Texture>{"rowT", &Texture::rowT},             Field<Texture>{"mean", &Texture::mean},
 };
 constexpr std::array LIGHT_FIELDS = {
     Field<Light>{"position", &Light::position}, Field<Light>{"intensity", &Light::intensity},
@@ -41,19 +52,24 @@ constexpr std::array LIGHT_FIELDS = {
 template <class Struct, size_t count>
 constexpr size_t bytesOf(const std::array<Field<Struct>, count>& fields)
 {
-    size_t bytes = sizeof(uint);  // of `type`
+    size_t bytes = 0;
     for (const Field<Struct>& field : fields) {
         bytes +=
-            std::holds_alternative<float Struct::*>(field.member) ? sizeof(float) : sizeof(vec3);
+            std::holds_alternative<vec3 Struct::*>(field.member) ? sizeof(vec3) : sizeof(float);
     }
     return bytes;
 }
-constexpr size_t UNUSED_IN_MATERIAL = sizeof(Material::unused0) + 4 * sizeof(uint);  // and its textures
+constexpr size_t TYPE = sizeof(uint);
+constexpr size_t UNUSED_IN_MATERIAL = sizeof(Material::unused0);
+constexpr size_t UNUSED_IN_TEXTURE = sizeof(Texture::unused0) + sizeof(Texture::unused1);
 // What a light's choice needs is made again when the scene is read.
 constexpr size_t MADE_AGAIN_IN_LIGHT = 4 * sizeof(uint);
-static_assert(bytesOf(MATERIAL_FIELDS) + UNUSED_IN_MATERIAL == sizeof(Material),
+static_assert(TYPE + bytesOf(MATERIAL_FIELDS) + UNUSED_IN_MATERIAL == sizeof(Material),
               "a field of Material is not saved");
-static_assert(bytesOf(LIGHT_FIELDS) + MADE_AGAIN_IN_LIGHT == sizeof(Light), "a field of Light is not saved");
+static_assert(TYPE + bytesOf(LIGHT_FIELDS) + MADE_AGAIN_IN_LIGHT == sizeof(Light),
+              "a field of Light is not saved");
+static_assert(bytesOf(TEXTURE_FIELDS) + UNUSED_IN_TEXTURE == sizeof(Texture),
+              "a field of Texture is not saved");
 
 // By their numbers, MATERIAL_* and LIGHT_*.
 const std::vector<std::string> MATERIAL_TYPES = {"lambert", "mirror", "dielectric", "conductor",
@@ -73,6 +89,8 @@ void appendFields(Json& json, const Struct& object, const std::array<Field<Struc
     for (const Field<Struct>& field : fields) {
         if (const auto* scalar = std::get_if<float Struct::*>(&field.member)) {
             json[field.name] = double{object.**scalar};
+        } else if (const auto* whole = std::get_if<uint Struct::*>(&field.member)) {
+            json[field.name] = object.**whole;
         } else {
             const vec3 v = object.*std::get<vec3 Struct::*>(field.member);
             json[field.name] = {double{v.x}, double{v.y}, double{v.z}};
@@ -90,10 +108,27 @@ KeySet keysFor(const std::array<Field<Struct>, count>& fields, std::vector<std::
 }
 
 template <class Struct, size_t count>
+Struct readFields(const JsonObject& json, const std::array<Field<Struct>, count>& fields)
+{
+    constexpr uint32_t ANY = std::numeric_limits<uint32_t>::max();
+    Struct object = {};
+    for (const Field<Struct>& field : fields) {
+        if (const auto* scalar = std::get_if<float Struct::*>(&field.member)) {
+            object.** scalar = static_cast<float>(json.number(field.name, 0, {}));
+        } else if (const auto* whole = std::get_if<uint Struct::*>(&field.member)) {
+            object.** whole = json.uint(field.name, 0, 0, ANY);
+        } else {
+            object.*std::get<vec3 Struct::*>(field.member) = vec3(json.vector(field.name, {}));
+        }
+    }
+    return object;
+}
+
+/// The same of a struct with a `type`, one of these words.
+template <class Struct, size_t count>
 Struct readFields(const JsonObject& json, const std::array<Field<Struct>, count>& fields,
                   const std::vector<std::string>& types)
 {
-    Struct object = {};
     const std::string type = json.string("type", "");
     const auto found = std::find(types.begin(), types.end(), type);
     if (found == types.end()) {
@@ -101,14 +136,8 @@ Struct readFields(const JsonObject& json, const std::array<Field<Struct>, count>
             json.document(), json.at("type"),
             fmt::format("\"type\" of {} is \"{}\", which is not known", json.what(), type));
     }
+    Struct object = readFields(json, fields);
     object.type = static_cast<uint>(found - types.begin());
-    for (const Field<Struct>& field : fields) {
-        if (const auto* scalar = std::get_if<float Struct::*>(&field.member)) {
-            object.** scalar = static_cast<float>(json.number(field.name, 0, {}));
-        } else {
-            object.*std::get<vec3 Struct::*>(field.member) = vec3(json.vector(field.name, {}));
-        }
-    }
     return object;
 }
 
@@ -126,6 +155,19 @@ Json lightJson(const Light& light)
     Json json = {{"type", wordOf(light.type, LIGHT_TYPES)}};
     appendFields(json, light, LIGHT_FIELDS);
     return json;
+}
+
+Json textureJson(const Texture& texture)
+{
+    Json json = Json::object();
+    appendFields(json, texture, TEXTURE_FIELDS);
+    return json;
+}
+
+Texture readTextureJson(const JsonDocument& document, const JsonNode& node)
+{
+    static const KeySet KEYS = keysFor(TEXTURE_FIELDS, {});
+    return readFields(JsonObject(document, node, "a texture", KEYS), TEXTURE_FIELDS);
 }
 
 Material readMaterialJson(const JsonDocument& document, const JsonNode& node, std::string& name)

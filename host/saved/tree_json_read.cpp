@@ -25,16 +25,18 @@ Camera readScene(const std::string& file, std::string_view all, size_t begin, si
         [](char c) { return c != '\n'; }, ' ');
     const JsonDocument document = parseJson(file, text);
     const Camera saved =
-        readDescription(document, {"materials", "lights", "objectStarts"}, options, prepared);
+        readDescription(document, {"materials", "textures", "lights", "objectStarts"}, options, prepared);
     Scene& scene = prepared.scene;
     const JsonNode& root = document.root;
     for (size_t i = 0; i < root.keys.size(); i++) {
         const std::string& name = root.keys[i].name;
-        if (name != "materials" && name != "lights" && name != "objectStarts") continue;
+        if (name != "materials" && name != "textures" && name != "lights" && name != "objectStarts") continue;
         for (const JsonNode& item : readArray(document, root.items[i], "\"" + name + "\"")) {
             if (name == "materials") {
                 scene.materials.push_back(
                     readMaterialJson(document, item, scene.materialNames.emplace_back()));
+            } else if (name == "textures") {
+                scene.textures.push_back(readTextureJson(document, item));
             } else if (name == "lights") {
                 scene.lights.push_back(readLightJson(document, item));
             } else {
@@ -66,6 +68,7 @@ PreparedScene loadTreeJson(const fs::path& path, const SceneOptions& options)
     checkArrays(file, scene, prepared.bvh.rootRef, prepared.scene.objectStarts);
     checkFrame(file, scene.frame, scene.probeTexels.size());
     replaceProbe(options, prepared);
+    prepareLights(prepared);
     return prepared;
 }
 

@@ -149,6 +149,7 @@ bool TreeEvents::number_unsigned(number_unsigned_t value)
 {
     if (isWithinScene()) return true;
     if (inLeaf_) return placed([&] { leaf_.whole(value); });
+    if (part_ == Part::texels && depth_ == 1) return textureTexel(value);
     if (part_ != Part::file) return real(static_cast<float>(value));
     if (keysRead_ == 1 && value == TREE_VERSION) return true;
     throw wrong(fmt::format("version {} of the format; this program reads version {}", value,
@@ -173,6 +174,14 @@ bool TreeEvents::real(float value)
     if (part_ != Part::texels || depth_ != 2) throw wrong("a number is out of place");
     if (components_ == 3) throw wrong("a texel of more than 3 numbers");
     texel_[components_++] = value;
+    return true;
+}
+
+bool TreeEvents::textureTexel(uint64_t value)
+{
+    if (value > std::numeric_limits<uint32_t>::max())
+        throw wrong(fmt::format("{} is no texel of a texture: it has more than 32 bits", value));
+    prepared_.scene.textureTexels.push_back(static_cast<uint32_t>(value));
     return true;
 }
 
@@ -292,10 +301,10 @@ void TreeEvents::finishLeaf()
     placed([&] { leaf_.finish(); });
     if (leaf_.isInstance()) return addInstance(leaf_.instance());
     Primitive primitive = leaf_.primitive();
-    if (leaf_.hasNormals()) {
-        std::vector<TriangleCorners>& normals = prepared_.scene.triangleCorners;
-        primitive.shape = static_cast<uint>(normals.size());
-        normals.push_back(leaf_.normals());
+    if (leaf_.hasCorners()) {
+        std::vector<TriangleCorners>& corners = prepared_.scene.triangleCorners;
+        primitive.shape = static_cast<uint>(corners.size());
+        corners.push_back(leaf_.corners());
     }
     placed([&] { tree_.addLeaf(primitive); });
 }

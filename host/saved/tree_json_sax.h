@@ -60,6 +60,7 @@ private:
     bool real(float value);
     void fileKey(const std::string& name);
     void finishTexel();
+    bool textureTexel(uint64_t value);
     void finishLeaf();
     std::string faultOf(const InstanceLeaf& leaf) const;
     void addInstance(const InstanceLeaf& leaf);

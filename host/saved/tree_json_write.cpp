@@ -55,7 +55,17 @@ std::string textOf(const vec3& v)
     return fmt::format("[{},{},{}]", textOf(v.x), textOf(v.y), textOf(v.z));
 }
 
-void printLeaf(TextFile& file, const Primitive& p, std::span<const TriangleCorners> normals)
+/// Normals and texture coordinates, as far as there are any.
+void printCorners(TextFile& file, const TriangleCorners& c)
+{
+    const vec3 us = {c.u0, c.u1, c.u2}, vs = {c.v0, c.v1, c.v2};
+    const bool flat = c.n0 == vec3(0) && c.n1 == vec3(0) && c.n2 == vec3(0);
+    const bool plain = us == vec3(0) && vs == vec3(0);
+    if (!flat || plain) file.print(",\"normals\":[{},{},{}]", textOf(c.n0), textOf(c.n1), textOf(c.n2));
+    if (!plain) file.print(",\"u\":{},\"v\":{}", textOf(us), textOf(vs));
+}
+
+void printLeaf(TextFile& file, const Primitive& p, std::span<const TriangleCorners> corners)
 {
     if (p.shape == SHAPE_SPHERE) {
         file.print(
@@ -66,10 +76,7 @@ void printLeaf(TextFile& file, const Primitive& p, std::span<const TriangleCorne
     file.print(
         "{{\"type\":\"triangle\",\"number\":{},\"material\":{},\"p0\":{},\"p1\":{},\"p2\":{}",
         p.number, p.material, textOf(p.p0), textOf(p.p1), textOf(p.p2));
-    if (p.shape != SHAPE_FLAT) {
-        const TriangleCorners& n = normals[p.shape];
-        file.print(",\"normals\":[{},{},{}]", textOf(n.n0), textOf(n.n1), textOf(n.n2));
-    }
+    if (p.shape != SHAPE_FLAT) printCorners(file, corners[p.shape]);
     file.print("}}");
 }
 
@@ -177,8 +184,10 @@ nlohmann::ordered_json describeForTree(const PreparedScene& prepared, const Devi
         json["materials"].push_back(
             materialJson(scene.materials[i], prepared.scene.materialNames[i]));
     }
+    json["textures"] = Json::array();
+    for (const Texture& texture : scene.textures) json["textures"].push_back(textureJson(texture));
     json["lights"] = Json::array();
-    for (const Light& light : scene.lights) json["lights"].push_back(lightJson(light));
+    for (const Light& light : prepared.sceneLights()) json["lights"].push_back(lightJson(light));
     json["objectStarts"] = prepared.scene.objectStarts;
     return json;
 }
@@ -201,6 +210,11 @@ void writeTreeJson(const PreparedScene& prepared, const fs::path& path)
     file.print("{{\"sahlTree\":1,\n\"scene\":{},\n\"texels\":[", description);
     for (size_t i = 0; i < scene.probeTexels.size(); i++) {
         file.print("{}{}", i == 0 ? "" : ",\n", textOf(vec3(scene.probeTexels[i])));
+    }
+    bool first = scene.probeTexels.empty();
+    for (const uint32_t texel : scene.textureTexels) {
+        file.print("{}{}", first ? "" : ",\n", texel);
+        first = false;
     }
     file.print("],\n");
     const Objects objects = objectsOf(scene);

@@ -33,6 +33,8 @@ enum Key : size_t {
     p1,
     p2,
     normals,
+    u,
+    v,
     center,
     radius,
     object,
@@ -50,6 +52,8 @@ constexpr LeafKey KEYS[] = {
     {"p1", Kind::vector, TRIANGLE, 0},
     {"p2", Kind::vector, TRIANGLE, 0},
     {"normals", Kind::rows, 0, TRIANGLE},
+    {"u", Kind::vector, 0, TRIANGLE},  // of the three corners
+    {"v", Kind::vector, 0, TRIANGLE},
     {"center", Kind::vector, SPHERE, 0},
     {"radius", Kind::number, SPHERE, 0},
     {"object", Kind::index, INSTANCE, 0},
@@ -194,15 +198,16 @@ Primitive TreeLeaf::primitive() const
     return p;
 }
 
-bool TreeLeaf::hasNormals() const
+bool TreeLeaf::hasCorners() const
 {
-    return has(Key::normals);
+    return has(Key::normals) || has(Key::u) || has(Key::v);
 }
 
-TriangleCorners TreeLeaf::normals() const
+TriangleCorners TreeLeaf::corners() const
 {
     constexpr size_t key = Key::normals;
-    return {vectorOf(key, 0), 0, vectorOf(key, 1), 0, vectorOf(key, 2), 0, 0, 0, 0, 0};
+    const vec3 us = vectorOf(Key::u), vs = vectorOf(Key::v);
+    return {vectorOf(key, 0), us.x, vectorOf(key, 1), us.y, vectorOf(key, 2), us.z, vs.x, vs.y, vs.z, 0};
 }
 
 }  // namespace sahl

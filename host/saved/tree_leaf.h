@@ -34,12 +34,12 @@ public:
     // Once finished.
     bool isInstance() const;
     InstanceLeaf instance() const;
-    Primitive primitive() const;  ///< a triangle as one without normals of its own
-    bool hasNormals() const;
-    TriangleCorners normals() const;
+    Primitive primitive() const;  ///< a triangle as one without corners of its own
+    bool hasCorners() const;      ///< normals or texture coordinates
+    TriangleCorners corners() const;
 
 private:
-    static constexpr size_t MAX_KEYS = 15;
+    static constexpr size_t MAX_KEYS = 17;
 
     struct Value {
         uint index = 0;

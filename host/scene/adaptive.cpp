@@ -21,9 +21,14 @@ void takeDefaultBounds(AdaptiveRule& rule)
     rule.maxSamples = inBlocks ? 1024 : 1000;
 }
 
-/// Empty, or what is wrong with the bounds, which go by the names `least` and `most`.
-std::string wrongBounds(const AdaptiveRule& rule, const char* least, const char* most)
+/// Empty, or what is wrong with a rule and its bounds, which go by the names `least` and `most`.
+std::string wrongBounds(const RenderSettings& settings, const char* least, const char* most)
 {
+    const AdaptiveRule& rule = settings.adaptive;
+    if (rule.rule == ADAPTIVE_REPORT && settings.samplerKind == SAMPLER_SOBOL) {
+        return "the rule report looks at single samples, and the sampler sobol ties 8 of them together; take "
+               "crossed or joint, or the sampler independent";
+    }
     if (rule.minSamples > rule.maxSamples) {
         return fmt::format("{} is {}, above {}, which is {}", least, rule.minSamples, most, rule.maxSamples);
     }
@@ -37,6 +42,13 @@ std::string wrongBounds(const AdaptiveRule& rule, const char* least, const char*
                            name, samples, adaptiveRuleName(rule.rule),
                            unit == BLOCK_SIZE ? "" : ", as many in each half", unit,
                            below > 0 ? below : unit);
+    }
+    // Of a single block nothing tells how noisy it is.
+    if (settings.samplerKind == SAMPLER_SOBOL && unit > 1 && rule.minSamples < 2 * unit) {
+        return fmt::format("{} is {}, and by the sampler sobol {} needs 2 blocks of 8 samples{} to see noise; give "
+                           "{} at least",
+                           least, rule.minSamples, adaptiveRuleName(rule.rule),
+                           unit == BLOCK_SIZE ? "" : " in each half", 2 * unit);
     }
     return "";
 }
@@ -92,7 +104,7 @@ void readAdaptive(const JsonDocument& document, const JsonNode& node, RenderSett
     rule.targetError = static_cast<float>(object.number("targetError", double{rule.targetError}, TARGET));
     rule.minSamples = object.uint("minSamples", rule.minSamples, 1, MAX_SAMPLES);
     rule.maxSamples = object.uint("maxSamples", rule.maxSamples, 1, MAX_SAMPLES);
-    const std::string wrong = wrongBounds(rule, "minSamples", "maxSamples");
+    const std::string wrong = wrongBounds(settings, "minSamples", "maxSamples");
     if (!wrong.empty()) throw errorAt(document, node, wrong);
 }
 
@@ -110,7 +122,7 @@ void applyAdaptiveOptions(RenderSettings& settings, const SceneOptions& options)
     std::string useless = uselessOption(settings, options);
     if (!useless.empty()) throw usageError("{}", useless);
     if (rule.rule == ADAPTIVE_NONE) return;
-    const std::string wrong = wrongBounds(rule, "--min-spp", "--max-spp");
+    const std::string wrong = wrongBounds(settings, "--min-spp", "--max-spp");
     if (!wrong.empty()) throw usageError("{}", wrong);
 }
 

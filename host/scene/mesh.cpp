@@ -2,6 +2,7 @@
 
 #include "scene/numbers.h"
 #include "scene/phong.h"
+#include "scene/texture.h"
 #include "util/error.h"
 
 #include <algorithm>
@@ -97,14 +98,23 @@ std::vector<vec3> mapNormals(const Mesh& mesh, const Transform& transform)
     return mapped;
 }
 
-/// Adds the corner normals and returns their index, or SHAPE_FLAT when no corner has one.
-uint32_t addNormals(Scene& scene, const std::array<vec3, 3>& corners, const vec3& geometric)
+/// What the corners of a triangle have beside their positions; no normal is zero.
+struct Corners {
+    std::array<vec3, 3> normals = {vec3(0.0f), vec3(0.0f), vec3(0.0f)};
+    std::array<vec2, 3> uvs = {vec2(0.0f), vec2(0.0f), vec2(0.0f)};
+};
+
+/// Adds the corners and returns their index, or SHAPE_FLAT when none has a normal or texture coordinates.
+uint32_t addCorners(Scene& scene, const Corners& corners, const vec3& geometric)
 {
-    if (isZero(corners[0]) && isZero(corners[1]) && isZero(corners[2])) return SHAPE_FLAT;
-    auto orGeometric = [&](const vec3& n) { return isZero(n) ? geometric : n; };
-    auto index = static_cast<uint32_t>(scene.triangleCorners.size());
-    scene.triangleCorners.push_back(
-        {orGeometric(corners[0]), 0, orGeometric(corners[1]), 0, orGeometric(corners[2]), 0, 0, 0, 0, 0});
+    const auto& n = corners.normals;
+    const auto& t = corners.uvs;
+    const bool flat = isZero(n[0]) && isZero(n[1]) && isZero(n[2]);
+    if (flat && t[0] == vec2(0.0f) && t[1] == vec2(0.0f) && t[2] == vec2(0.0f)) return SHAPE_FLAT;
+    auto sound = [&](const vec3& normal) { return isZero(normal) && !flat ? geometric : normal; };
+    const auto index = static_cast<uint32_t>(scene.triangleCorners.size());
+    scene.triangleCorners.push_back({sound(n[0]), t[0].x, sound(n[1]), t[1].x, sound(n[2]), t[2].x, t[0].y,
+                                     t[1].y, t[2].y, 0});
     return index;
 }
 
@@ -142,17 +152,21 @@ uint64_t appendMesh(Scene& scene, const Mesh& mesh, const Transform& transform,
     std::vector<vec3> positions = mapPositions(mesh, transform, name);
     std::vector<vec3> normals = mapNormals(mesh, transform);
     bool mirrors = determinant(transform) < 0;
+    const bool keepUvs = usesTextures(scene);
     uint64_t dropped = 0;
     scene.objectStarts.push_back(static_cast<uint32_t>(scene.primitives.size()));
     scene.primitives.reserve(scene.primitives.size() + mesh.triangles.size());
     for (const MeshTriangle& t : mesh.triangles) {
         std::array<size_t, 3> order = {0, mirrors ? size_t{2} : size_t{1},
                                        mirrors ? size_t{1} : size_t{2}};
-        std::array<vec3, 3> p, n;
+        std::array<vec3, 3> p;
+        Corners corners;
         for (size_t k = 0; k < 3; k++) {
             p[k] = positions.at(t.position[order[k]]);
             uint32_t normal = t.normal[order[k]];
-            n[k] = normal == SHAPE_FLAT ? vec3(0.0f) : normals.at(normal);
+            if (normal != SHAPE_FLAT) corners.normals[k] = normals.at(normal);
+            const uint32_t uv = t.uv[order[k]];
+            if (uv != NO_UV && keepUvs) corners.uvs[k] = mesh.uvs.at(uv);
         }
         if (hasZeroArea(p[0], p[1], p[2])) {
             dropped++;
@@ -162,8 +176,8 @@ uint64_t appendMesh(Scene& scene, const Mesh& mesh, const Transform& transform,
         vec3 geometric = unitOrZero(doubleAreaVector(p[0], p[1], p[2]));
         auto primitive = static_cast<uint32_t>(scene.primitives.size());
         uint32_t material = materials[t.material];
-        uint32_t normalIndex = addNormals(scene, n, geometric);
-        scene.primitives.push_back({p[0], primitive, p[1], material, p[2], normalIndex});
+        uint32_t cornersIndex = addCorners(scene, corners, geometric);
+        scene.primitives.push_back({p[0], primitive, p[1], material, p[2], cornersIndex});
     }
     scene.droppedTriangles += dropped;
     return dropped;

@@ -10,16 +10,20 @@
 
 namespace sahl {
 
+constexpr uint32_t NO_UV = 0xffffffffu;
+
 /// Indices into the mesh's arrays. Counter-clockwise seen from the front.
 struct MeshTriangle {
     std::array<uint32_t, 3> position;
     std::array<uint32_t, 3> normal = {SHAPE_FLAT, SHAPE_FLAT, SHAPE_FLAT};  ///< per corner
     uint32_t material = 0;  ///< index in the mesh's own list of materials
+    std::array<uint32_t, 3> uv = {NO_UV, NO_UV, NO_UV};  ///< per corner; without: (0, 0)
 };
 
 struct Mesh {
     std::vector<vec3> positions;
     std::vector<vec3> normals;  ///< any length; of zero length or not finite: as if absent
+    std::vector<vec2> uvs;      ///< texture coordinates, v up
     std::vector<MeshTriangle> triangles;
 };
 
@@ -30,6 +34,7 @@ void makeSmoothNormals(Mesh& mesh);
 
 /// Appends the transformed mesh to the scene. A mirroring transform flips the winding, so that
 /// fronts stay fronts. Triangles of zero area are left out, counted in scene.droppedTriangles.
+/// Texture coordinates are kept if the scene has textures by now: see usesTextures.
 ///   materials  for each material of the mesh its index in scene.materials
 ///   returns    number of triangles left out
 /// Throws badInput naming `name` when a coordinate overflows or MAX_PRIMITIVES is exceeded.

@@ -23,7 +23,8 @@ constexpr double MAX_EMISSION = 1e18;
 /// What the check of an MTL file found out.
 struct MtlCheck {
     std::set<std::pair<std::string, std::string>> given;  ///< material and keyword of a number
-    std::set<std::string> unused;                         ///< keywords that Sahl makes nothing of
+    std::set<std::string> unused;          ///< keywords and options that Sahl makes nothing of
+    std::map<std::string, MtlMaps> maps;   ///< by material
 
     bool has(const std::string& material, const char* keyword) const
     {
@@ -31,10 +32,23 @@ struct MtlCheck {
     }
 };
 
-MtlCheck checkMtl(std::string_view text, const std::string& file)
+/// Where the maps of this keyword go; nullptr for other keywords.
+std::optional<MtlMap>* mapOf(MtlMaps& maps, std::string_view keyword)
+{
+    static const std::map<std::string_view, std::optional<MtlMap> MtlMaps::*> places = {
+        {"map_Kd", &MtlMaps::color},      {"map_d", &MtlMaps::alpha},
+        {"map_Ke", &MtlMaps::emission},   {"norm", &MtlMaps::normal},
+        {"map_Pr", &MtlMaps::roughness},  {"map_Pm", &MtlMaps::metallic},
+    };
+    const auto found = places.find(keyword);
+    return found == places.end() ? nullptr : &(maps.*found->second);
+}
+
+MtlCheck checkMtl(std::string_view text, const std::string& file, const PathPolicy& policy)
 {
     static const std::set<std::string_view> harmless = {"illum", "newmtl"};
     static const std::set<std::string_view> colors = {"Ka", "Kd", "Ks", "Ke"};
+    static const std::set<std::string_view> numbers = {"Ns", "Pr", "Pm", "d"};
     MtlCheck check;
     StatementReader statements(text, file);
     Statement s;
@@ -42,10 +56,12 @@ MtlCheck checkMtl(std::string_view text, const std::string& file)
     while (statements.next(s)) {
         if (s.keyword == "newmtl") {
             material = std::string(s.rest);
-        } else if (colors.count(s.keyword) > 0 || s.keyword == "Ns") {
-            const size_t count = s.keyword == "Ns" ? 1 : 3;
+        } else if (colors.count(s.keyword) > 0 || numbers.count(s.keyword) > 0) {
+            const size_t count = numbers.count(s.keyword) > 0 ? 1 : 3;
             checkNumbers(s, count, count);
             check.given.emplace(material, s.keyword);
+        } else if (auto* map = mapOf(check.maps[material], s.keyword)) {
+            *map = readMtlMap(s, policy, check.unused);
         } else if (harmless.count(s.keyword) == 0) {
             check.unused.insert(std::string(s.keyword.substr(0, 20)));
         }
@@ -79,21 +95,37 @@ void readPhong(const tinyobj::material_t& m, const MtlCheck& check, ObjMaterial&
     material.shininess = toFloat(std::clamp(exponent, 0.0, MAX_SHININESS));
 }
 
+/// Pr, Pm and d, and the maps.
+void readSurface(const tinyobj::material_t& m, MtlCheck& check, ObjMaterial& material, uint64_t& clamped)
+{
+    auto share = [&](double value) {
+        if (!(value >= 0 && value <= 1)) clamped++;
+        return std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 0.0;
+    };
+    if (check.has(material.name, "Pr")) material.roughness = toFloat(share(m.roughness));
+    if (check.has(material.name, "Pm")) material.metallic = toFloat(share(m.metallic));
+    if (check.has(material.name, "d")) material.opacity = share(m.dissolve);
+    material.maps = check.maps[material.name];
+    if (material.maps.color && !check.has(material.name, "Kd")) material.baseColor = vec3(1);
+    if (material.maps.emission && !check.has(material.name, "Ke")) material.emission = vec3(1);
+}
+
 void tellUnused(const std::set<std::string>& unused, const std::string& file)
 {
     if (unused.empty()) return;
     std::string list;
     for (const std::string& keyword : unused) list += (list.empty() ? "" : ", ") + keyword;
-    warn(fmt::format("{}: only Ka, Kd, Ks, Ke and Ns are used; left out: {}", file,
-                     list.substr(0, 200)));
+    warn(fmt::format("{}: only Ka, Kd, Ks, Ke, Ns, Pr, Pm, d with map_d, map_Kd, map_Ke, map_Pr, map_Pm and "
+                     "norm are used; left out: {}",
+                     file, list.substr(0, 200)));
 }
 
 }  // namespace
 
-void readMtl(const fs::path& file, std::map<std::string, ObjMaterial>& materials)
+void readMtl(const fs::path& file, const PathPolicy& policy, std::map<std::string, ObjMaterial>& materials)
 {
     std::string text = normaliseLines(readTextFile(file, MAX_MTL_BYTES), file.string());
-    MtlCheck check = checkMtl(text, file.string());
+    MtlCheck check = checkMtl(text, file.string(), policy);
 
     std::map<std::string, int> indices;
     std::vector<tinyobj::material_t> read;
@@ -110,6 +142,7 @@ void readMtl(const fs::path& file, std::map<std::string, ObjMaterial>& materials
         if (check.has(name, "Kd")) material.baseColor = clampColor(m.diffuse, 1, clamped);
         material.emission = clampColor(m.emission, MAX_EMISSION, clamped);
         readPhong(m, check, material, clamped);
+        readSurface(m, check, material, clamped);
         if (!isFinite(material.baseColor) || !isFinite(material.emission) ||
             !isFinite(material.specularColor) ||
             !isFinite(material.ambientColor.value_or(vec3(0))) ||
@@ -117,13 +150,14 @@ void readMtl(const fs::path& file, std::map<std::string, ObjMaterial>& materials
             throw badInput("{}: tinyobjloader misreads a colour of \"{}\"; write it more simply",
                            file.string(), name);
         }
+        if (material.opacity < 1 && !material.maps.alpha) check.unused.insert("d without map_d");
         materials.emplace(name, material);
     }
     tellUnused(check.unused, file.string());
     if (clamped > 0) {
         warn(fmt::format(
-            "{}: {} colours outside [0,1] (Ka, Kd, Ks) or below 0 (Ke), or exponents (Ns) "
-            "outside [0,1e6], were clamped",
+            "{}: {} colours outside [0,1] (Ka, Kd, Ks) or below 0 (Ke), shares (Pr, Pm, d) outside "
+            "[0,1] or exponents (Ns) outside [0,1e6], were clamped",
             file.string(), clamped));
     }
 }

@@ -76,9 +76,9 @@ void checkVertex(ObjReading& reading, std::string& line)
         checkNumbers(s, 3, 3, true);
     } else if (s.keyword == "vt") {
         checkNumbers(s, 1, 3);
-        reading.texcoords.count++;
     }
-    if (s.keyword == "v" || s.keyword == "vn") line.append(s.keyword).append(" ").append(s.rest);
+    if (s.keyword == "v" || s.keyword == "vn" || s.keyword == "vt")
+        line.append(s.keyword).append(" ").append(s.rest);
 }
 
 void addPosition(void* user, float x, float y, float z, float)
@@ -97,6 +97,14 @@ void addNormal(void* user, float x, float y, float z)
     if (normal == vec3(0.0f)) reading.badNormals.add(reading.statement);
     reading.result.mesh.normals.push_back(normal);
     reading.normals.count++;
+}
+
+void addTexcoord(void* user, float u, float v, float)
+{
+    auto& reading = *static_cast<ObjReading*>(user);
+    if (!isFinite({u, v, 0})) throw misread(reading, "a number");
+    reading.result.mesh.uvs.emplace_back(toFloat(u), toFloat(v));
+    reading.texcoords.count++;
 }
 
 /// Turns an index of the file (from 1, or negative from the end of what came before) into one
@@ -174,12 +182,14 @@ void addFace(void* user, tinyobj::index_t* corners, int count)
     };
     if (static_cast<size_t>(count) != reading.corners) throw misread(reading, "the face");
     if (reading.material == NO_HIT) reading.material = useMaterial(reading, {"default"});
-    std::vector<uint32_t> positions, normals;
+    std::vector<uint32_t> positions, normals, uvs;
     std::vector<vec3> points;
     for (const tinyobj::index_t& corner : std::span(corners, reading.corners)) {
         positions.push_back(find(reading.positions, corner.vertex_index));
         bool hasNormal = corner.normal_index != 0;
         normals.push_back(hasNormal ? find(reading.normals, corner.normal_index) : SHAPE_FLAT);
+        bool hasUv = corner.texcoord_index != 0;
+        uvs.push_back(hasUv ? find(reading.texcoords, corner.texcoord_index) : NO_UV);
         points.push_back(mesh.positions[positions.back()]);
     }
     bool isFan = false;
@@ -189,6 +199,7 @@ void addFace(void* user, tinyobj::index_t* corners, int count)
         for (size_t k = 0; k < 3; k++) {
             triangle.position[k] = positions[cut[k]];
             triangle.normal[k] = normals[cut[k]];
+            triangle.uv[k] = uvs[cut[k]];
         }
         mesh.triangles.push_back(triangle);
     }
@@ -208,7 +219,7 @@ void readMaterialLibrary(ObjReading& reading)
         std::string name(isOneName ? std::exchange(rest, {}) : takeWord(rest));
         fs::path path = resolvePath(reading.policy, folder, name, at(s));
         if (fs::exists(path, error)) {
-            readMtl(path, reading.library);
+            readMtl(path, reading.policy, reading.library);
         } else {
             warn(fmt::format("{}: material file \"{}\" is missing; its materials become grey",
                              at(s), name));
@@ -292,6 +303,7 @@ void readStatements(ObjReading& reading, std::string_view text, Check& check)
     tinyobj::callback_t callbacks;
     callbacks.vertex_cb = addPosition;
     callbacks.normal_cb = addNormal;
+    callbacks.texcoord_cb = addTexcoord;
     callbacks.index_cb = addFace;
     callbacks.usemtl_cb = setMaterial;
     tinyobj::LoadObjWithCallback(stream, callbacks, &reading);

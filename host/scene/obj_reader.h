@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/mesh.h"
+#include "scene/mtl_map.h"
 #include "scene/path_policy.h"
 
 #include <map>
@@ -14,8 +15,13 @@ namespace sahl {
 /// What Sahl uses of an MTL material.
 struct ObjMaterial {
     std::string name;
-    vec3 baseColor = vec3(0.7f);  ///< Kd, clamped to [0,1]; grey where the file gives none
-    vec3 emission = vec3(0.0f);   ///< Ke [W m^-2 sr^-1]
+    vec3 baseColor = vec3(0.7f);  ///< Kd, clamped to [0,1]; grey where the file gives none, 1
+                                  ///< where it gives a map_Kd alone
+    vec3 emission = vec3(0.0f);   ///< Ke [W m^-2 sr^-1]; 1 where there is a map_Ke alone
+    std::optional<float> roughness = std::nullopt;  ///< Pr, clamped to [0,1]
+    std::optional<float> metallic = std::nullopt;   ///< Pm, clamped to [0,1]
+    double opacity = 1;                             ///< d, clamped to [0,1]; counts with map_d alone
+    MtlMaps maps = {};
 
     // For the phong integrator alone
     std::optional<vec3> ambientColor = std::nullopt;  ///< Ka, clamped to [0,1]
@@ -34,7 +40,8 @@ struct ObjFile {
 /// faces with fewer than 3 corners, lines and points, unknown statements, missing materials.
 ObjFile readObj(const fs::path& file, const PathPolicy& policy);
 
-/// Reads the materials of an MTL file into `materials`; a name that is there already stays.
-void readMtl(const fs::path& file, std::map<std::string, ObjMaterial>& materials);
+/// Reads the materials of an MTL file into `materials`; a name that is there already stays. Pictures are
+/// named but not read.
+void readMtl(const fs::path& file, const PathPolicy& policy, std::map<std::string, ObjMaterial>& materials);
 
 }  // namespace sahl

@@ -48,7 +48,7 @@ const PlyProperty* findProperty(const PlyElement& element, std::string_view name
 }
 
 /// Remembers the properties of `element` that are not in `used`. Texture coordinates go without
-/// saying: no material has a use for them.
+/// saying: not every material has a use for them.
 void noteUnused(PlyReading& reading, const PlyElement& element,
                 const std::vector<std::string_view>& used)
 {
@@ -61,11 +61,11 @@ void noteUnused(PlyReading& reading, const PlyElement& element,
     }
 }
 
-/// Which of x, y, z, nx, ny, nz each property of a vertex is.
+/// Which of x, y, z, nx, ny, nz, u, v each property of a vertex is.
 struct VertexLayout {
-    static constexpr size_t NONE = 6;
+    static constexpr size_t NONE = 8;
     std::vector<size_t> slots;
-    bool hasNormals = false;
+    bool hasNormals = false, hasUvs = false;
 };
 
 VertexLayout layoutOf(PlyReading& reading, const PlyElement& element)
@@ -83,7 +83,13 @@ VertexLayout layoutOf(PlyReading& reading, const PlyElement& element)
     }
     VertexLayout layout;
     layout.hasNormals = isScalar("nx") && isScalar("ny") && isScalar("nz");
-    std::vector<std::string_view> used(names.begin(), names.begin() + (layout.hasNormals ? 6 : 3));
+    std::vector<std::string_view> used = names;
+    if (!layout.hasNormals) std::fill(used.begin() + 3, used.end(), "");
+    for (const auto& [u, v] : {std::pair("u", "v"), std::pair("s", "t"), std::pair("texture_u", "texture_v")}) {
+        if (layout.hasUvs || !isScalar(u) || !isScalar(v)) continue;
+        used.insert(used.end(), {u, v});
+        layout.hasUvs = true;
+    }
     for (const PlyProperty& property : element.properties) {
         auto at = std::find(used.begin(), used.end(), property.name);
         layout.slots.push_back(at == used.end() ? VertexLayout::NONE
@@ -93,12 +99,19 @@ VertexLayout layoutOf(PlyReading& reading, const PlyElement& element)
     return layout;
 }
 
+/// What is not finite becomes 0.
+void addUv(Mesh& mesh, double u, double v)
+{
+    mesh.uvs.emplace_back(std::isfinite(u) ? toFloat(u) : 0, std::isfinite(v) ? toFloat(v) : 0);
+}
+
 void readVertices(PlyReading& reading, const PlyElement& element, PlyBody& body)
 {
     const VertexLayout layout = layoutOf(reading, element);
     Mesh& mesh = reading.mesh;
     mesh.positions.reserve(element.count);  // the file is long enough for that many
     if (layout.hasNormals) mesh.normals.reserve(element.count);
+    if (layout.hasUvs) mesh.uvs.reserve(element.count);
     for (uint64_t i = 0; i < element.count; i++) {
         body.beginItem(i);
         std::array<double, VertexLayout::NONE> values = {};
@@ -117,6 +130,7 @@ void readVertices(PlyReading& reading, const PlyElement& element, PlyBody& body)
         }
         body.endItem();
         mesh.positions.push_back(toFloat(glm::dvec3(values[0], values[1], values[2])));
+        if (layout.hasUvs) addUv(mesh, values[6], values[7]);
         if (!layout.hasNormals) continue;
         glm::dvec3 normal(values[3], values[4], values[5]);
         mesh.normals.push_back(isFinite(normal) ? toFloat(normal) : vec3(0.0f));
@@ -159,6 +173,7 @@ void addTriangle(PlyReading& reading, const std::array<uint32_t, 3>& corners)
     }
     MeshTriangle triangle = {corners};
     if (!mesh.normals.empty()) triangle.normal = corners;
+    if (!mesh.uvs.empty()) triangle.uv = corners;
     mesh.triangles.push_back(triangle);
 }
 

@@ -75,6 +75,14 @@ Icosphere refine(Icosphere coarse)
     return fine;
 }
 
+/// A triangle whose corners' texture coordinates have the indices of their positions.
+void addTriangle(Mesh& mesh, const std::array<uint32_t, 3>& corners)
+{
+    MeshTriangle triangle;
+    triangle.position = triangle.uv = corners;
+    mesh.triangles.push_back(triangle);
+}
+
 }  // namespace
 
 Mesh makeSphere(const glm::dvec3& center, double radius, uint32_t level, bool smooth)
@@ -100,8 +108,9 @@ Mesh makeRectangle(const glm::dvec3& corner, const glm::dvec3& edgeU, const glm:
     Mesh mesh;
     mesh.positions = {toFloat(corner), toFloat(corner + edgeU), toFloat(corner + edgeU + edgeV),
                       toFloat(corner + edgeV)};
-    mesh.triangles.push_back({{0, 1, 2}});
-    mesh.triangles.push_back({{0, 2, 3}});
+    mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    addTriangle(mesh, {0, 1, 2});
+    addTriangle(mesh, {0, 2, 3});
     return mesh;
 }
 
@@ -113,11 +122,13 @@ Mesh makeDisk(const glm::dvec3& center, const glm::dvec3& normal, double radius,
     glm::dvec3 t = glm::cross(n, s);
     Mesh mesh;
     mesh.positions.push_back(toFloat(center));
+    mesh.uvs.emplace_back(0.5f, 0.5f);
     for (uint32_t i = 0; i < segments; i++) {
         double angle = 360.0 * i / segments;
         mesh.positions.push_back(
             toFloat(center + s * (radius * cosDeg(angle)) + t * (radius * sinDeg(angle))));
-        mesh.triangles.push_back({{0, 1 + i, 1 + (i + 1) % segments}});
+        mesh.uvs.emplace_back(toFloat(0.5 + 0.5 * cosDeg(angle)), toFloat(0.5 + 0.5 * sinDeg(angle)));
+        addTriangle(mesh, {0, 1 + i, 1 + (i + 1) % segments});
     }
     return mesh;
 }

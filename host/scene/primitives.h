@@ -14,9 +14,11 @@ Mesh makeTeapot(uint32_t subdivisions, bool smooth);
 Mesh makeSphere(const glm::dvec3& center, double radius, uint32_t level, bool smooth);
 
 /// The parallelogram corner + [0,1] edgeU + [0,1] edgeV; its front is where edgeU x edgeV points.
+/// Texture coordinates are the shares of the edges.
 Mesh makeRectangle(const glm::dvec3& corner, const glm::dvec3& edgeU, const glm::dvec3& edgeV);
 
-/// A disk of `segments` triangles around its centre, inscribed in the circle.
+/// A disk of `segments` triangles around its centre, inscribed in the circle. Texture coordinates: the
+/// circle is inscribed in the picture.
 Mesh makeDisk(const glm::dvec3& center, const glm::dvec3& normal, double radius, uint32_t segments);
 
 constexpr uint32_t MAX_TEAPOT_SUBDIVISIONS = 128;

@@ -7,6 +7,7 @@
 #include "scene/primitives.h"
 #include "scene/phong.h"
 #include "scene/probe.h"
+#include "scene/sampling.h"
 #include "scene/scene_reading.h"
 
 #include <algorithm>
@@ -76,6 +77,7 @@ void applyOptions(RenderSettings& settings, const SceneOptions& options)
     settings.maxBounces = options.maxBounces.value_or(settings.maxBounces);
     settings.seed = options.seed.value_or(settings.seed);
     applyShadingOptions(settings, options);
+    applySamplingOptions(settings, options);
     applyAdaptiveOptions(settings, options);
 }
 

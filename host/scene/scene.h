@@ -6,6 +6,7 @@
 #include "shared/scene_types.h"
 #include "util/files.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -72,6 +73,11 @@ struct CameraDescription {
     std::optional<FramedBox> framed;           ///< moves eye so that all of it is in the picture
 };
 
+/// Where the texels of a picture are that textures look up.
+struct StoredPicture {
+    uint32_t firstTexel = 0, width = 0, height = 0;
+};
+
 /// Everything a picture is made of, before the tree is built. Primitives are in the order in which
 /// the files gave them; primitives[i].number == i.
 struct Scene {
@@ -87,7 +93,8 @@ struct Scene {
     std::vector<std::string> materialNames;  ///< of materials, for messages
     std::vector<Light> lights;
     std::vector<Texture> textures;
-    std::vector<uint32_t> textureTexels;  ///< of all textures, RGBA8, red lowest
+    std::vector<uint32_t> textureTexels;  ///< the sRGB curve, then those of all pictures: see Texture
+    std::map<std::string, StoredPicture> pictures;  ///< stored so far, by files or other names
     Probe probe = plainProbe(0, 0, PROBE_LATLONG, FILTER_BILINEAR);  ///< lights the scene
     std::optional<Probe> background;  ///< what the camera sees behind the scene, if not the probe
     std::vector<vec4> probeTexels;    ///< of both
@@ -114,6 +121,8 @@ Box extentOf(const std::vector<Primitive>& primitives);
 struct SceneOptions {
     std::optional<uint32_t> width, height, spp, maxBounces, seed;
     std::optional<uint32_t> integrator;  ///< one of INTEGRATOR_*
+    std::optional<uint32_t> samplerKind, rouletteDepth;  ///< one of SAMPLER_*; NO_ROULETTE: off
+    std::optional<float> clampIndirect;                  ///< 0: off
     std::optional<uint32_t> terms;       ///< of phong: bits of SHADING_TERMS
     std::optional<bool> shadows;         ///< of phong
     std::optional<bool> flatNormals;     ///< geometric normals in place of interpolated ones

@@ -1,6 +1,7 @@
 // Scene files: JSON, described by scenes/schema.json and scenes/README.md.
 #include "scene/adaptive.h"
 #include "scene/camera.h"
+#include "scene/sampling.h"
 #include "scene/scene_reading.h"
 #include "util/gzip.h"
 
@@ -27,6 +28,7 @@ void readIntegrator(SceneReading& reading, const JsonNode& node)
     settings.spp = integrator.uint("samplesPerPixel", settings.spp, 1, MAX_SAMPLES);
     settings.seed = integrator.uint("seed", settings.seed, 0, 0xffffffffu);
     readShading(integrator, settings);
+    readSampling(integrator, settings);
     if (const JsonNode* adaptive = integrator.find("adaptive")) readAdaptive(reading.document, *adaptive, settings);
 }
 

@@ -77,10 +77,10 @@ float readShare(const JsonObject& object, const char* key, double otherwise)
     return toFloat(object.number(key, otherwise, SHARE));
 }
 
-/// Of the types that have a roughness; whoever gives none gets a smooth surface.
+/// Of the types that have a roughness; whoever gives none, nor a picture of it, gets a smooth surface.
 void readRoughness(const JsonObject& object, uint roughType, Material& material)
 {
-    material.roughness = readShare(object, "roughness", 0);
+    material.roughness = readShare(object, "roughness", object.has("roughnessTexture") ? 1 : 0);
     if (material.roughness > 0) material.type = roughType;
 }
 
@@ -106,17 +106,20 @@ void readLayers(const JsonObject& object, const std::string& type, Material& mat
     }
 }
 
-Material readMaterial(const JsonDocument& document, const JsonNode& node, const std::string& what)
+Material readMaterial(SceneReading& reading, const JsonNode& node, const std::string& what)
 {
+    const JsonDocument& document = reading.document;
     const std::string type =
         readType(document, node, what,
                  {"lambert", "mirror", "dielectric", "conductor", "report", "thinDielectric",
                   "plastic", "metallicRoughness"});
     const JsonObject object(document, node, what, type + "Material");
-    const bool coloured = type == "lambert" || type == "report" || type == "plastic";
+    const bool diffuse = type == "lambert" || type == "report" || type == "plastic";
+    const bool coloured = diffuse && !object.has("baseColorTexture");
     Material material = {};
     material.eta = 1;
-    material.emission = toFloat(object.vector("emission", {}, LIGHT_RANGE));
+    const glm::dvec3 emission(object.has("emissionTexture") ? 1 : 0);
+    material.emission = toFloat(object.vector("emission", emission, LIGHT_RANGE));
     material.baseColor = vec3(1);
     if (type != "conductor") {
         material.baseColor =
@@ -141,6 +144,7 @@ Material readMaterial(const JsonDocument& document, const JsonNode& node, const 
         readReportMaterial(object, material);
     }
     readLayers(object, type, material);
+    readMaterialTextures(reading, object, material);
     readPhongMaterial(object, material);
     return material;
 }
@@ -159,7 +163,7 @@ void readMaterials(SceneReading& reading, const JsonNode& node)
             throw badInput("{}: a material needs a name", document.where(node.keys[i].offset));
         const std::string what = fmt::format("material \"{}\"", name);
         reading.materials[name] =
-            addMaterial(reading.scene, name, readMaterial(document, node.items[i], what));
+            addMaterial(reading.scene, name, readMaterial(reading, node.items[i], what));
     }
 }
 

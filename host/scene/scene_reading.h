@@ -71,6 +71,9 @@ Transform readRotation(const JsonDocument& document, const JsonNode& node, const
 /// Terms, shadows, normals and ambient light of "integrator".
 void readShading(const JsonObject& integrator, RenderSettings& settings);
 
+/// The textures of a material and its alphaCutoff.
+void readMaterialTextures(SceneReading& reading, const JsonObject& object, Material& material);
+
 /// What the phong integrator uses of a material, once the rest of it is read.
 void readPhongMaterial(const JsonObject& object, Material& material);
 

@@ -90,6 +90,23 @@ std::vector<vec3> readPoints(const JsonObject& shape, const std::string& key)
     return points;
 }
 
+std::vector<vec2> readUvs(const JsonObject& shape)
+{
+    constexpr Range UV = {-1e6, 1e6};
+    std::vector<vec2> uvs;
+    const JsonNode* node = shape.find("uvs");
+    if (!node) return uvs;
+    const JsonDocument& document = shape.document();
+    for (const JsonNode& item : readArray(document, *node, "\"uvs\" of " + shape.what())) {
+        const auto& pair = readArray(document, item, "a pair of \"uvs\"");
+        if (pair.size() != 2)
+            throw errorAt(document, item, fmt::format("a pair of \"uvs\" needs 2 numbers, found {}", pair.size()));
+        uvs.emplace_back(toFloat(readNumber(document, pair[0], "u", UV)),
+                         toFloat(readNumber(document, pair[1], "v", UV)));
+    }
+    return uvs;
+}
+
 Mesh readTriangles(const JsonObject& shape)
 {
     const JsonDocument& document = shape.document();
@@ -102,6 +119,13 @@ Mesh readTriangles(const JsonObject& shape)
             fmt::format("{} has {} positions and {} normals; there must be a normal for each "
                         "position",
                         shape.what(), mesh.positions.size(), mesh.normals.size()));
+    }
+    mesh.uvs = readUvs(shape);
+    if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size()) {
+        throw errorAt(document, shape.at("uvs"),
+                      fmt::format("{} has {} positions and {} pairs of texture coordinates; there must be a "
+                                  "pair for each position",
+                                  shape.what(), mesh.positions.size(), mesh.uvs.size()));
     }
     const JsonNode& list = shape.at("indices");
     for (const JsonNode& item : readArray(document, list, "\"indices\" of " + shape.what())) {
@@ -116,6 +140,7 @@ Mesh readTriangles(const JsonObject& shape)
             auto last = static_cast<uint32_t>(mesh.positions.size() - 1);
             triangle.position[k] = readUint(document, corners[k], "an index", 0, last);
             if (!mesh.normals.empty()) triangle.normal[k] = triangle.position[k];
+            if (!mesh.uvs.empty()) triangle.uv[k] = triangle.position[k];
         }
         mesh.triangles.push_back(triangle);
     }
@@ -185,8 +210,12 @@ void readSphere(SceneReading& reading, const JsonObject& shape, const std::strin
                       "\"instance\" of a group with the sphere, or a \"sphereMesh\"");
     }
     const glm::dvec3 center = mapPoint(transform, shape.vector("center", {}));
-    appendSphere(reading.scene, center, scale * shape.number("radius", 1, RADIUS),
-                 readMaterialName(reading, shape), name);
+    const uint32_t material = readMaterialName(reading, shape);
+    if (reading.scene.materials[material].alphaCutoff > 0) {
+        throw errorAt(shape.document(), shape.at("material"),
+                      "a sphere cannot have holes, as \"alphaCutoff\" of its material asks for; use a mesh");
+    }
+    appendSphere(reading.scene, center, scale * shape.number("radius", 1, RADIUS), material, name);
 }
 
 Mesh readMesh(SceneReading& reading, const JsonObject& shape, const std::string& type)
@@ -307,6 +336,7 @@ void appendObj(Scene& scene, const ObjFile& obj, const Transform& transform, boo
         added.ambientColor = m.ambientColor.value_or(added.ambientColor);
         added.specularColor = m.specularColor;
         added.shininess = m.shininess.value_or(added.shininess);
+        applyMtlMaps(scene, m.maps, m.opacity, added);
     }
     Mesh smoothMesh;
     if (smooth) {

@@ -15,6 +15,8 @@ layout(constant_id = SPEC_STACK_SIZE) const uint STACK_SIZE = 64u;
 layout(constant_id = SPEC_ORDER) const uint TRAVERSAL_ORDER = ORDER_NEAR_FIRST;
 layout(constant_id = SPEC_EXACT_MATH) const bool EXACT_MATH = false;
 layout(constant_id = SPEC_INSTANCES) const bool HAS_INSTANCES = false;
+layout(constant_id = SPEC_TEXTURES) const bool HAS_TEXTURES = false;
+layout(constant_id = SPEC_CUTOUTS) const bool HAS_CUTOUTS = false;
 
 layout(std140, set = 0, binding = BINDING_FRAME) uniform FrameBlock
 {
@@ -105,8 +107,13 @@ AliasEntry loadAliasEntry(uint index)
 
 Texture loadTexture(uint index)
 {
-    uvec4 a = FETCH(tableWords, frame.texturesAt + index);
-    return Texture(a.x, a.y, a.z, a.w);
+    uint at = frame.texturesAt + index * 4u;
+    uvec4 a = FETCH(tableWords, at);
+    uvec4 b = FETCH(tableWords, at + 1u);
+    uvec4 c = FETCH(tableWords, at + 2u);
+    uvec4 d = FETCH(tableWords, at + 3u);
+    return Texture(a.x, a.y, a.z, a.w, uintBitsToFloat(b.xyz), uintBitsToFloat(b.w),
+                   uintBitsToFloat(c.xyz), c.w, uintBitsToFloat(d.xyz), d.w);
 }
 
 uint loadTextureTexel(uint index)
@@ -133,12 +140,7 @@ ObjectInstance loadInstance(uint index)
                     uintBitsToFloat(i.xyz), i.w);
 }
 
-vec3 loadProbeTexel(uint index)
+vec4 loadProbeTexel(uint index)
 {
-    return uintBitsToFloat(FETCH(probeWords, index).xyz);
-}
-
-float loadProbeWeight(uint index)
-{
-    return uintBitsToFloat(FETCH(probeWords, index).w);
+    return uintBitsToFloat(FETCH(probeWords, index));
 }

@@ -39,7 +39,7 @@ void main()
 
     stepsLeft = job.stepBudget;
     faults = 0u;
-    tally = Tally(0u, 0u, 0u, 0u, 0u);
+    tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
     PathState path;
     Traversal walk;
     if (block.status == BLOCK_SUSPENDED) {

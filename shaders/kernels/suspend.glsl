@@ -14,6 +14,7 @@ void suspendPath(uint index, PathState path, Traversal walk)
     suspended[index].boxTests = tally.boxTests;
     suspended[index].primitiveTests = tally.primitiveTests;
     suspended[index].bounces = tally.bounces;
+    suspended[index].clamped = tally.clamped;
     uint i = 0u;
     for (; i < walk.stackSize; i++) suspended[index].stack[i] = stack[i];
     if (i != walk.stackSize) faults |= FAULT_LOOP_CUT;
@@ -28,6 +29,7 @@ void resumePath(uint index, out PathState path, out Traversal walk)
     tally.boxTests = suspended[index].boxTests;
     tally.primitiveTests = suspended[index].primitiveTests;
     tally.bounces = suspended[index].bounces;
+    tally.clamped = suspended[index].clamped;
     uint i = 0u;
     for (; i < walk.stackSize; i++) stack[i] = suspended[index].stack[i];
     if (i != walk.stackSize) faults |= FAULT_LOOP_CUT;

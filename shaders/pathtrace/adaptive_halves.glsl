@@ -9,23 +9,30 @@ float meanLuminance(FilmSums sums, uint n)
     return flushed(luminance(total) * quotient(1.0f, float(n)));
 }
 
-/// Variance of a single sample's luminance, by the spread of n >= 2 samples around their mean.
-float sampleVariance(FilmSums sums, uint n, float mean)
+/// Replicates among n samples: the samples, or whole blocks of them.
+uint replicatesOf(AdaptiveRule rule, uint n) { return rule.overBlocks != 0u ? (n + 7u) >> 3u : n; }
+
+/// Variance of a single sample's luminance, by the spread of n samples, 2 replicates at least, around their
+/// mean. Of samples that are tied together in blocks: the variance that independent ones would need to have
+/// for their means to be as noisy.
+float sampleVariance(FilmSums sums, uint n, uint replicates, float mean)
 {
     float excess = floatFromFixed(sums.y2) * quotient(1.0f, float(n)) - mean * mean;
-    float variance = flushed(excess * quotient(float(n), float(n - 1u)));
+    float variance = flushed(excess * quotient(float(n), float(replicates - 1u)));
     return variance > 0.0f ? variance : 0.0f;
 }
 
-/// What a pixel says of itself: see PixelEstimate. It has 2 samples in each half at least.
+/// What a pixel says of itself: see PixelEstimate. It has 2 replicates in each half at least.
 PixelEstimate estimateOf(AdaptiveRule rule, FilmPixel film)
 {
     PixelEstimate estimate;
     if (rule.rule == ADAPTIVE_CROSSED) {
         estimate.luminanceA = meanLuminance(film.sumsA, film.samplesA);
-        estimate.varianceA = sampleVariance(film.sumsA, film.samplesA, estimate.luminanceA);
+        estimate.varianceA = sampleVariance(film.sumsA, film.samplesA, replicatesOf(rule, film.samplesA),
+                                            estimate.luminanceA);
         estimate.luminanceB = meanLuminance(film.sumsB, film.samplesB);
-        estimate.varianceB = sampleVariance(film.sumsB, film.samplesB, estimate.luminanceB);
+        estimate.varianceB = sampleVariance(film.sumsB, film.samplesB, replicatesOf(rule, film.samplesB),
+                                            estimate.luminanceB);
         return estimate;
     }
     FilmSums both = film.sumsA;
@@ -35,7 +42,8 @@ PixelEstimate estimateOf(AdaptiveRule rule, FilmPixel film)
     both.y2 = fixedSum(both.y2, film.sumsB.y2);
     uint n = samplesOf(film);
     estimate.luminanceA = meanLuminance(both, n);
-    estimate.varianceA = flushed(sampleVariance(both, n, estimate.luminanceA) * quotient(1.0f, float(n)));
+    float ofSample = sampleVariance(both, n, replicatesOf(rule, n), estimate.luminanceA);
+    estimate.varianceA = flushed(ofSample * quotient(1.0f, float(n)));
     estimate.luminanceB = 0.0f;
     estimate.varianceB = 0.0f;
     return estimate;

@@ -104,6 +104,7 @@ void addBlock(PixelBlock block, uint firstSample, INOUT(FilmPixel) film)
     film.boxTests = countSum(film.boxTests, block.boxTests);
     film.primitiveTests = countSum(film.primitiveTests, block.primitiveTests);
     film.bounces = countSum(film.bounces, block.bounces);
+    film.clamped = countSum(film.clamped, block.clamped);
 }
 
 PixelBlock emptyBlock()
@@ -121,7 +122,7 @@ PixelBlock emptyBlock()
     block.primitiveTests = 0u;
     block.bounces = 0u;
     block.faults = 0u;
+    block.clamped = 0u;
     block.unused0 = 0u;
-    block.unused1 = 0u;
     return block;
 }

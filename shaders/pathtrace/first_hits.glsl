@@ -37,11 +37,13 @@ void addFirstHit(PathState path, Traversal hit, bool isFirst, INOUT(FirstHits) s
 {
     if (hit.slot == NO_HIT) return;
     SurfaceInteraction isect = interactionAt(hit, path.org, path.dir);
+    Material material = texturedMaterial(loadMaterial(isect.material), isect.u, isect.v);
+    isect = bumpedInteraction(material, hit, isect);
     if (isFirst) {
         sums.number = hit.number;
         sums.material = isect.material;
     }
-    sums.albedo = sums.albedo + albedoOf(loadMaterial(isect.material));
+    sums.albedo = sums.albedo + albedoOf(material);
     sums.depth = sums.depth + hit.tHit;
     sums.ns = sums.ns + isect.ns;
     sums.ng = sums.ng + isect.ng;

@@ -75,6 +75,11 @@ void sphereInteraction(Primitive sphere, Traversal hit, vec3 org, vec3 dir,
     vec3 normal = unit((org + dir * hit.tHit) - sphere.p0);
     vec3 arm = normal * sphere.p1.x;
     isect.p = sphere.p0 + arm;
+    if (HAS_TEXTURES) {
+        vec2 uv = sphereUv(normal);
+        isect.u = uv.x;
+        isect.v = uv.y;
+    }
     completeInteraction(normal, dir, absolute3(sphere.p0) + absolute3(arm), isect);
 }
 
@@ -106,11 +111,11 @@ void placeInteraction(ObjectInstance instance, INOUT(SurfaceInteraction) isect)
 }
 
 /// Normals at the corners of an instance's triangle: those that the triangle itself would have, were it
-/// moved to the world. (Interpolated before it is moved, a normal would lean elsewhere.)
+/// moved to the world. (Interpolated before it is moved, a normal would lean elsewhere.) None stay none.
 TriangleCorners placeNormals(ObjectInstance instance, TriangleCorners normals)
 {
-    TriangleCorners placed;
-    placed = normals;
+    TriangleCorners placed = normals;
+    if (HAS_TEXTURES && !(dot3(normals.n0, normals.n0) > 0.0f)) return placed;
     placed.n0 = unit(normalToWorld(instance, normals.n0));
     placed.n1 = unit(normalToWorld(instance, normals.n1));
     placed.n2 = unit(normalToWorld(instance, normals.n2));
@@ -122,6 +127,8 @@ SurfaceInteraction geometryAt(Primitive shape, Traversal hit, vec3 org, vec3 dir
 {
     SurfaceInteraction isect;
     isect.material = shape.material;
+    isect.u = 0.0f;
+    isect.v = 0.0f;
     if (shape.shape == SHAPE_SPHERE) {
         sphereInteraction(shape, hit, org, dir, isect);
     } else {
@@ -130,10 +137,23 @@ SurfaceInteraction geometryAt(Primitive shape, Traversal hit, vec3 org, vec3 dir
     return isect;
 }
 
-bool hasNormals(Primitive shape)
+/// Whether there is something in a triangle's corners that counts.
+bool hasCorners(Primitive shape)
 {
     bool facets = (frame.shading & SHADING_FLAT) != 0u;
-    return shape.shape != SHAPE_SPHERE && shape.shape != SHAPE_FLAT && !facets;
+    return shape.shape != SHAPE_SPHERE && shape.shape != SHAPE_FLAT && (HAS_TEXTURES || !facets);
+}
+
+/// What lies between the corners: the normal, and texture coordinates.
+void interpolateCorners(TriangleCorners corners, Traversal hit, INOUT(SurfaceInteraction) isect)
+{
+    if (HAS_TEXTURES) {
+        vec2 uv = cornersUv(corners, hit.b1, hit.b2);
+        isect.u = uv.x;
+        isect.v = uv.y;
+        if ((frame.shading & SHADING_FLAT) != 0u) return;
+    }
+    interpolateNormal(corners, hit, isect);
 }
 
 SurfaceInteraction interactionInInstance(Primitive shape, Traversal hit, vec3 org, vec3 dir)
@@ -142,8 +162,8 @@ SurfaceInteraction interactionInInstance(Primitive shape, Traversal hit, vec3 or
     SurfaceInteraction isect = geometryAt(shape, hit, pointToObject(instance, org),
                                           directionToObject(instance, dir));
     placeInteraction(instance, isect);
-    if (hasNormals(shape)) {
-        interpolateNormal(placeNormals(instance, loadCorners(shape.shape)), hit, isect);
+    if (hasCorners(shape)) {
+        interpolateCorners(placeNormals(instance, loadCorners(shape.shape)), hit, isect);
     }
     return isect;
 }
@@ -156,7 +176,7 @@ SurfaceInteraction interactionAt(Traversal hit, vec3 org, vec3 dir)
         return interactionInInstance(shape, hit, org, dir);
     }
     SurfaceInteraction isect = geometryAt(shape, hit, org, dir);
-    if (hasNormals(shape)) interpolateNormal(loadCorners(shape.shape), hit, isect);
+    if (hasCorners(shape)) interpolateCorners(loadCorners(shape.shape), hit, isect);
     return isect;
 }
 

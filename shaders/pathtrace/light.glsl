@@ -3,9 +3,21 @@
 struct LightSample
 {
     vec3 wi;         // unit direction to the light
-    float distance;  // [m]; 0: the light gives nothing here
-    vec3 Li;         // irradiance of a surface that faces the light, over the density of the choice
+    float distance;  // that a shadow ray must go unblocked [m]; 0: the light gives nothing here
+    vec3 Li;         // what arrives, over the density of the choice and of wi: of point, spot and
+                     // directional lights the irradiance of a surface that faces them, else radiance
+    float pdf;       // that density [1/sr]; 0: nothing else can find the light
 };
+
+LightSample noLight()
+{
+    LightSample ls;
+    ls.wi = vec3(0.0f);
+    ls.distance = 0.0f;
+    ls.Li = vec3(0.0f);
+    ls.pdf = 0.0f;
+    return ls;
+}
 
 /// Share of a spot light's intensity that goes in a direction whose cosine with its axis is given: a
 /// smooth step between the outer and the inner angle's cosine.
@@ -20,16 +32,13 @@ float spotFalloff(Light light, float cosine)
 /// What a light gives to a point, with a density of 1.
 LightSample illuminate(Light light, vec3 p)
 {
-    LightSample ls;
+    LightSample ls = noLight();
     if (light.type == LIGHT_DIRECTIONAL) {
         ls.distance = RAY_INFINITY;
         ls.wi = -light.direction;
         ls.Li = light.intensity;
         return ls;
     }
-    ls.distance = 0.0f;
-    ls.wi = vec3(0.0f);
-    ls.Li = vec3(0.0f);
     vec3 toLight = light.position - p;
     float d2 = dot3(toLight, toLight);
     if (!(d2 > 1e-30f)) return ls;
@@ -40,16 +49,88 @@ LightSample illuminate(Light light, vec3 p)
     return ls;
 }
 
-/// Chooses one light; all are as likely.
-///   u  uniform in [0,1)
-LightSample sampleLight(vec3 p, float u)
+/// Li and pdf of a direction whose density is known: none where that is too small or too large a number.
+LightSample withRadiance(vec3 wi, float distance, vec3 radiance, float pdf)
 {
-    float count = float(frame.lightCount);
-    uint chosen = uint(u * count);
-    Light light = loadLight(chosen < frame.lightCount ? chosen : frame.lightCount - 1u);
-    LightSample ls = illuminate(light, p);
-    ls.Li = ls.Li * count;
+    LightSample ls = noLight();
+    if (!(pdf > 0.0f) || !(pdf < 1e30f)) return ls;
+    ls.wi = wi;
+    ls.distance = distance;
+    ls.Li = flushed3(radiance * quotient(1.0f, pdf));
+    ls.pdf = pdf;
     return ls;
+}
+
+LightSample sampleShapeLight(Light light, SurfaceInteraction isect, float u1, float u2)
+{
+    Primitive shape = loadPrimitive(light.slot);
+    uint painted = shape.material;
+    if (HAS_INSTANCES && light.instance != NO_INSTANCE) {
+        uint material = loadInstance(light.instance).material;
+        if (material != NO_MATERIAL) painted = material;
+    }
+    vec3 emission = loadMaterial(painted).emission;
+    float perArea = flushed(luminance(emission) * frame.lightPerPower);
+    ShapeSample ss;
+    if (light.type == LIGHT_SPHERE) {
+        ss = sampleSphereLight(perArea, shape, light.instance, isect, u1, u2);
+    } else {
+        ss = sampleTriangleLight(perArea, shape, light.instance, isect, u1, u2);
+    }
+    return withRadiance(ss.wi, ss.distance, emission, ss.pdf);
+}
+
+LightSample sampleProbeLight(uint bits, uint finer, float u1, float u2)
+{
+    vec3 d;
+    if (!sampleProbe(bits, finer, u1, u2, d)) return noLight();
+    // Looked up as for any other ray, so that the density is that of the direction as it came out
+    vec3 dir = unit(fromProbe(frame.probe, d));
+    vec3 seen = toProbe(frame.probe, dir);
+    vec4 texel = lookUpProbe(frame.probe, seen);
+    return withRadiance(dir, RAY_INFINITY, vec3(texel), pdfProbe(seen, texel.w));
+}
+
+/// Chooses the probe or one of the lights, by their power, and a direction to it.
+///   u     uniform in [0,1): probe or lights
+///   bits  uniform: which one, and where on it
+LightSample sampleLight(SurfaceInteraction isect, float u, uvec4 bits)
+{
+    float u1 = unitFloat(bits.y);
+    float u2 = unitFloat(bits.z);
+    uint finer = ((bits.y & 255u) | ((bits.z & 255u) << 8u)) | ((bits.w & 255u) << 16u);
+    if (u < frame.probeChance) return sampleProbeLight(bits.x, finer, u1, u2);
+    if (frame.choiceCount == 0u) return noLight();
+    Light light = loadLight(chooseByAlias(0u, frame.choiceCount, bits.x, finer));
+    if (light.type >= LIGHT_TRIANGLE) return sampleShapeLight(light, isect, u1, u2);
+    LightSample ls = illuminate(light, isect.p);
+    ls.Li = flushed3(ls.Li * quotient(1.0f, light.chance));
+    return ls;
+}
+
+/// Weight of what was found by one of two ways of sampling, by the power heuristic: Veach 1997, "Robust
+/// Monte Carlo Methods for Light Transport Simulation", Sec. 9.2.4, with an exponent of 2.
+///   pdf    density of the way that found it
+///   other  density with which the other would have
+float powerHeuristic(float pdf, float other)
+{
+    if (!(other > 0.0f)) return 1.0f;
+    float ratio = quotient(other, pdf);
+    return ratio > 1e9f ? 0.0f : quotient(1.0f, 1.0f + ratio * ratio);
+}
+
+/// Weight of light that light sampling found. No scattering finds lights with a pdf of 0.
+float weightOfLightSample(float pdfLight, float pdfScattering)
+{
+    if (!(pdfLight > 0.0f) || frame.lightSampling == LIGHTS_ONLY) return 1.0f;
+    return powerHeuristic(pdfLight, pdfScattering);
+}
+
+/// Weight of light that a scattered ray ran into. Light sampling finds nothing for rays with a pdf of 0.
+float weightOfScattering(float pdfScattering, float pdfLight)
+{
+    if (!(pdfScattering > 0.0f) || !(pdfLight > 0.0f)) return 1.0f;
+    return frame.lightSampling == LIGHTS_ONLY ? 0.0f : powerHeuristic(pdfScattering, pdfLight);
 }
 
 /// Aims the path's shadow ray from a surface at a light.

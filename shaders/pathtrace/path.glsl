@@ -53,22 +53,26 @@ Traversal beginPathTraversal(PathState path)
 
 /// Prepares a shadow ray to one light; its arrival will add path.Ld. Returns whether there is one.
 ///   dimension  of the vertex
-bool sampleDirectLight(Material material, SurfaceInteraction isect, uint dimension,
+///   u          uniform in [0,1)
+bool sampleDirectLight(Material material, SurfaceInteraction isect, uint dimension, float u,
                        INOUT(PathState) path)
 {
-    if (frame.lightCount == 0u) return false;
-    vec4 u = random4(path.pixel, path.sampleIndex, dimension + DIMENSION_LIGHT);
-    LightSample ls = sampleLight(isect.p, u.x);
+    if (frame.choiceCount == 0u && !(frame.probeChance > 0.0f)) return false;
+    uvec4 bits = randomBits4(path.pixel, path.sampleIndex, dimension + DIMENSION_LIGHT);
+    LightSample ls = sampleLight(isect, u, bits);
     if (!(ls.distance > 0.0f)) return false;
-    vec3 f = evalBsdfCos(material, isect, -path.dir, ls.wi);
-    path.Ld = flushed3(path.beta * f * ls.Li);
+    BsdfValue bsdf = evalBsdf(material, isect, -path.dir, ls.wi);
+    float weight = weightOfLightSample(ls.pdf, bsdf.pdf);
+    path.Ld = flushed3(flushed3(path.beta * flushed3(bsdf.f) * ls.Li) * weight);
     if (!(maxComponent(path.Ld) > 0.0f)) return false;
     aimShadowRay(isect, ls, path);
     return true;
 }
 
 /// Chooses the path's next direction and returns the lobe; LOBE_NONE when the path ends.
-uint sampleNextRay(Material material, SurfaceInteraction isect, vec4 u, INOUT(PathState) path)
+///   dimension  of the vertex
+///   u          its numbers for the BSDF
+uint sampleNextRay(Material material, SurfaceInteraction isect, uint dimension, vec4 u, INOUT(PathState) path)
 {
     BsdfSample bs = sampleBsdf(material, isect, path.dir, path.mediumEta, u);
     path.beta = flushed3(path.beta * bs.weight);
@@ -78,6 +82,7 @@ uint sampleNextRay(Material material, SurfaceInteraction isect, vec4 u, INOUT(Pa
     path.mediumEta = bs.mediumEta;
     path.pdf = bs.pdf;
     path.etaScale = path.etaScale * bs.etaScale;
+    if (!survivesRoulette(dimension, path)) return LOBE_NONE;
     tally.indirectRays++;
     return bs.lobe;
 }
@@ -85,23 +90,41 @@ uint sampleNextRay(Material material, SurfaceInteraction isect, vec4 u, INOUT(Pa
 /// Light that a path sees where its ray meets nothing.
 void seeEnvironment(INOUT(PathState) path)
 {
-    vec3 Le = path.depth == 0u ? evalProbe(frame.background, path.dir) : evalProbe(frame.probe, path.dir);
-    path.L = path.L + path.beta * Le;
+    if (path.depth == 0u) {
+        gather(path.beta * evalProbe(frame.background, path.dir), path.depth, path);
+    } else {
+        vec3 d = toProbe(frame.probe, path.dir);
+        vec4 texel = lookUpProbe(frame.probe, d);
+        float weight = weightOfScattering(path.pdf, pdfProbe(d, texel.w));
+        gather(path.beta * vec3(texel) * weight, path.depth, path);
+    }
     path.phase = PHASE_ENDED;
 }
 
+/// Light that a path sees where its ray meets a surface.
+void seeEmission(SurfaceInteraction isect, Material material, Traversal hit, INOUT(PathState) path)
+{
+    if (!(maxComponent(material.emission) > 0.0f)) return;
+    float weight = 1.0f;
+    if (path.pdf > 0.0f) {
+        float pdfLight = pdfShapeLight(hit, isect, material.emission, path.org, path.dir);
+        weight = weightOfScattering(path.pdf, pdfLight);
+    }
+    gather(path.beta * material.emission * weight, path.depth, path);
+}
+
 /// What happens at a surface: its emission, a shadow ray, the next ray. Returns the lobe sampled.
-uint shadeSurface(SurfaceInteraction isect, Material material, INOUT(PathState) path)
+uint shadeSurface(SurfaceInteraction isect, Material material, Traversal hit, INOUT(PathState) path)
 {
     tally.bounces++;
-    path.L = path.L + path.beta * material.emission;
+    seeEmission(isect, material, hit, path);
     path.phase = PHASE_ENDED;
     if (path.depth >= frame.maxBounces) return LOBE_NONE;
 
     uint dimension = DIMENSION_FIRST_VERTEX + DIMENSIONS_PER_VERTEX * path.depth;
     vec4 u = random4(path.pixel, path.sampleIndex, dimension);
-    bool lit = sampleDirectLight(material, isect, dimension, path);
-    uint lobe = sampleNextRay(material, isect, u, path);
+    bool lit = sampleDirectLight(material, isect, dimension, u.z, path);
+    uint lobe = sampleNextRay(material, isect, dimension, u, path);
     path.depth++;
     if (lit) {
         path.phase = lobe != LOBE_NONE ? PHASE_SHADOW : PHASE_LAST_SHADOW;
@@ -122,11 +145,12 @@ void shadePath(Traversal hit, INOUT(PathState) path)
         seeEnvironment(path);
     } else {
         SurfaceInteraction isect = interactionAt(hit, path.org, path.dir);
-        Material material = loadMaterial(isect.material);
+        Material material = texturedMaterial(loadMaterial(isect.material), isect.u, isect.v);
+        isect = bumpedInteraction(material, hit, isect);
         if (frame.integrator == INTEGRATOR_PHONG) {
             shadePhong(isect, material, hit, path);
         } else {
-            lobe = shadeSurface(isect, material, path);
+            lobe = shadeSurface(isect, material, hit, path);
         }
     }
     if (arrives) {
@@ -139,8 +163,9 @@ void finishShadow(Traversal hit, INOUT(PathState) path)
 {
     uint blocked = hit.slot != NO_HIT ? 1u : 0u;
     path.digest += digestOf(blocked, 0u, path.depth, DIGEST_SHADOW);
-    if (blocked == 0u) path.L = path.L + path.Ld;
-    if (frame.integrator == INTEGRATOR_PHONG) {
+    bool phong = frame.integrator == INTEGRATOR_PHONG;
+    if (blocked == 0u) gather(path.Ld, phong ? 1u : path.depth, path);
+    if (phong) {
         passLight(path);
     } else {
         path.phase = path.phase == PHASE_SHADOW ? PHASE_EXTEND : PHASE_ENDED;

@@ -1,6 +1,6 @@
 // The path tracer, in the order in which a path meets its parts. The includer provides the buffers
-// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, TRAVERSAL_ORDER, EXACT_MATH, HAS_INSTANCES
-// and the macros OUT and INOUT; SAHL_GLOSSY where all materials are wanted.
+// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, TRAVERSAL_ORDER, EXACT_MATH, HAS_... and the macros OUT
+// and INOUT; it defines SAHL_GLOSSY where it wants all materials.
 
 // Invocation-wide state.
 struct Tally
@@ -10,6 +10,7 @@ struct Tally
     uint boxTests;
     uint primitiveTests;
     uint bounces;
+    uint clamped;
 };
 
 Tally tally;             // work counted for the current sample
@@ -21,14 +22,17 @@ CONST float RAY_INFINITY = 3.0e38f;
 
 #include "pathtrace/exact.glsl"
 #include "pathtrace/math.glsl"
+#include "pathtrace/sobol.glsl"
 #include "pathtrace/rng.glsl"
 #include "pathtrace/sampling.glsl"
 #include "pathtrace/camera.glsl"
 #include "pathtrace/triangle.glsl"
 #include "pathtrace/sphere.glsl"
+#include "pathtrace/texture.glsl"
 #include "pathtrace/instance.glsl"
 #include "pathtrace/traverse.glsl"
 #include "pathtrace/interaction.glsl"
+#include "pathtrace/normal_map.glsl"
 #include "pathtrace/fresnel.glsl"
 #include "pathtrace/lobes.glsl"
 #include "pathtrace/smooth.glsl"
@@ -39,8 +43,13 @@ CONST float RAY_INFINITY = 3.0e38f;
 #include "pathtrace/glossy.glsl"
 #include "pathtrace/bsdf.glsl"
 #include "pathtrace/probe.glsl"
+#include "pathtrace/light_choice.glsl"
+#include "pathtrace/probe_sampling.glsl"
+#include "pathtrace/shape_lights.glsl"
 #include "pathtrace/light.glsl"
 #include "pathtrace/phong.glsl"
+#include "pathtrace/roulette.glsl"
+#include "pathtrace/gather.glsl"
 #include "pathtrace/path.glsl"
 #include "pathtrace/film.glsl"
 #include "pathtrace/first_hits.glsl"

@@ -20,8 +20,9 @@ vec2 angularMapFromDirection(vec3 d)
     return vec2(0.5f + right, 0.5f - d.y * r);
 }
 
-/// Texel (x, y); beside the picture the nearest one, except that lat-long goes round in x.
-vec3 probeTexelAt(Probe probe, int x, int y)
+/// Colour and weight of texel (x, y); beside the picture of the nearest one, except that lat-long goes
+/// round in x.
+vec4 probeTexelAt(Probe probe, int x, int y)
 {
     int width = int(probe.width);
     int height = int(probe.height);
@@ -34,11 +35,22 @@ vec3 probeTexelAt(Probe probe, int x, int y)
     return loadProbeTexel(probe.firstTexel + uint(y) * probe.width + uint(x));
 }
 
-/// Radiance from direction dir [W m^-2 sr^-1].
-vec3 evalProbe(Probe probe, vec3 dir)
+/// A direction on its way from the world to the probe's own space.
+vec3 toProbe(Probe probe, vec3 dir)
 {
-    if (probe.height == 0u) return vec3(0.0f);
-    vec3 d = vec3(dot3(probe.axisX, dir), dot3(probe.axisY, dir), dot3(probe.axisZ, dir));
+    return vec3(dot3(probe.axisX, dir), dot3(probe.axisY, dir), dot3(probe.axisZ, dir));
+}
+
+vec3 fromProbe(Probe probe, vec3 d)
+{
+    return (probe.axisX * d.x + probe.axisY * d.y) + probe.axisZ * d.z;
+}
+
+/// Radiance [W m^-2 sr^-1] and light sampling's weight of the texels that direction d, in the probe's own
+/// space, meets.
+vec4 lookUpProbe(Probe probe, vec3 d)
+{
+    if (probe.height == 0u) return vec4(0.0f);
     vec2 uv = probe.mapping == PROBE_ANGULAR ? angularMapFromDirection(d)
                                                    : latLongFromDirection(d);
     float x = uv.x * float(probe.width);
@@ -52,7 +64,10 @@ vec3 evalProbe(Probe probe, vec3 dir)
     float fy = (y - 0.5f) - top;
     int ix = int(left);
     int iy = int(top);
-    vec3 upper = probeTexelAt(probe, ix, iy) * (1.0f - fx) + probeTexelAt(probe, ix + 1, iy) * fx;
-    vec3 lower = probeTexelAt(probe, ix, iy + 1) * (1.0f - fx) + probeTexelAt(probe, ix + 1, iy + 1) * fx;
+    vec4 upper = probeTexelAt(probe, ix, iy) * (1.0f - fx) + probeTexelAt(probe, ix + 1, iy) * fx;
+    vec4 lower = probeTexelAt(probe, ix, iy + 1) * (1.0f - fx) + probeTexelAt(probe, ix + 1, iy + 1) * fx;
     return upper * (1.0f - fy) + lower * fy;
 }
+
+/// Radiance from direction dir [W m^-2 sr^-1].
+vec3 evalProbe(Probe probe, vec3 dir) { return vec3(lookUpProbe(probe, toProbe(probe, dir))); }

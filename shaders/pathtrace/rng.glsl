@@ -1,4 +1,5 @@
-// Random numbers as a function of (seed, pixel, sample, dimension): no state, integers only.
+// Random numbers as a function of (seed, pixel, sample, dimension): no state, integers only. How samples of
+// a pixel go together is in sobol.glsl.
 
 // Where a path needs numbers. Each vertex has its own: 4 for its BSDF, then 4 for a light and roulette.
 CONST uint DIMENSION_CAMERA = 0u;
@@ -31,9 +32,19 @@ uvec4 hash4(uint a, uint b, uint c, uint d)
 /// A number in [0, 1) from the upper 24 bits: exact in float on every device.
 float unitFloat(uint bits) { return float(bits >> 8u) * 5.96046448e-08f; }
 
-/// Four independent uniform numbers in [0, 1).
+/// 32 random bits for each of a row of four dimensions, by the scene's sampler.
+uvec4 randomBits4(uint pixel, uint sampleIndex, uint dimension)
+{
+    uvec4 ofSample = hash4(pixel, sampleIndex, dimension, frame.seed);
+    if (frame.samplerKind == SAMPLER_INDEPENDENT) return ofSample;
+    // A block is told from a sample, of which there are fewer than 2^24, by its highest bit. BLOCK_SIZE is 8.
+    uvec4 ofBlock = hash4(pixel, (sampleIndex >> 3u) | 0x80000000u, dimension, frame.seed);
+    return netBits4(ofBlock, ofSample, sampleIndex & 7u);
+}
+
+/// Four uniform numbers in [0, 1): the upper 24 bits of randomBits4.
 vec4 random4(uint pixel, uint sampleIndex, uint dimension)
 {
-    uvec4 bits = hash4(pixel, sampleIndex, dimension, frame.seed);
+    uvec4 bits = randomBits4(pixel, sampleIndex, dimension);
     return vec4(unitFloat(bits.x), unitFloat(bits.y), unitFloat(bits.z), unitFloat(bits.w));
 }

@@ -105,6 +105,7 @@ struct WalkRay
     float entry;        // into the instance's box in the world, 0 in the world [m]
     vec3 dir;           // unit in the world
     uint firstNumber;   // of the instance's primitives, 0 in the world
+    uint material;      // of all the instance's primitives, or NO_MATERIAL
     BoxRay boxes;
     ShearedRay sheared;
 };
@@ -116,6 +117,7 @@ WalkRay makeWalkRay(vec3 org, vec3 dir, float entry, uint firstNumber)
     ray.entry = entry;
     ray.dir = dir;
     ray.firstNumber = firstNumber;
+    ray.material = NO_MATERIAL;
     ray.boxes = makeBoxRay(org, dir);
     ray.sheared = shearRay(dir);
     return ray;
@@ -125,8 +127,10 @@ WalkRay makeWalkRay(vec3 org, vec3 dir, float entry, uint firstNumber)
 ///   entry  of the ray into the instance's box in the world
 WalkRay walkRayInside(ObjectInstance instance, vec3 org, vec3 dir, float entry)
 {
-    return makeWalkRay(pointToObject(instance, org), directionToObject(instance, dir), entry,
-                       instance.firstNumber);
+    WalkRay ray = makeWalkRay(pointToObject(instance, org), directionToObject(instance, dir), entry,
+                              instance.firstNumber);
+    ray.material = instance.material;
+    return ray;
 }
 
 /// The ray as a walk needs it that goes on where another dispatch left it.
@@ -142,7 +146,8 @@ WalkRay walkRayOf(Traversal walk, vec3 org, vec3 dir)
     return ray;
 }
 
-/// Tests the primitive in `slot` and keeps it in `walk` when it is the closest so far.
+/// Tests the primitive in `slot` and keeps it in `walk` when it is the closest so far. Where its material has a
+/// hole there is no hit, whoever asks: so the closest hit depends on no order, as above.
 void visitPrimitive(WalkRay ray, uint slot, INOUT(Traversal) walk)
 {
     Primitive shape = loadPrimitive(slot);
@@ -166,7 +171,9 @@ void visitPrimitive(WalkRay ray, uint slot, INOUT(Traversal) walk)
         t = max2(t, ray.entry);
         number += ray.firstNumber;
     }
-    if (t < walk.tHit || (t == walk.tHit && number < walk.number)) {
+    bool closer = t < walk.tHit || (t == walk.tHit && number < walk.number);
+    if (HAS_CUTOUTS && closer) closer = !isCutOut(shape, ray.material, b1, b2);
+    if (closer) {
         walk.slot = slot;
         walk.number = number;
         if (HAS_INSTANCES) walk.instance = walk.inside;

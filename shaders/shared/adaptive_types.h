@@ -19,9 +19,10 @@ struct AdaptiveRule
     uint minSamples;    // no pixel stops before; ADAPTIVE_CROSSED: the pilots of both halves together
     uint maxSamples;    // every pixel stops here
     float targetError;  // ADAPTIVE_CROSSED, _JOINT: one standard error of a pixel, relative to its luminance
+    uint overBlocks;    // 1: noise is seen by the spread of blocks of samples (SAMPLER_SOBOL), 0: of samples.
+                        // Whoever runs the rule sets it by the scene's sampler
     uint unused0;
     uint unused1;
-    uint unused2;
 };
 GPU_STRUCT_SIZE(AdaptiveRule, 32);
 GPU_FIELD(AdaptiveRule, targetError, 16);
@@ -56,7 +57,7 @@ struct FilmSums
     uvec4 red;
     uvec4 green;
     uvec4 blue;
-    uvec4 y2;     // squared luminance of the samples
+    uvec4 y2;     // sumY2 of the blocks
 };
 GPU_STRUCT_SIZE(FilmSums, 64);
 
@@ -74,8 +75,7 @@ struct FilmPixel
     uvec2 boxTests;
     uvec2 primitiveTests;
     uvec2 bounces;
-    uint unused0;
-    uint unused1;
+    uvec2 clamped;
 };
 GPU_STRUCT_SIZE(FilmPixel, 192);
 GPU_FIELD(FilmPixel, samplesA, 128);

@@ -20,7 +20,8 @@ SHARED_CONST uint FAULT_STACK_OVERFLOW = 2u; // more pending nodes than the stac
 struct PixelBlock
 {
     vec3 sum;            // radiance of the samples, added in sample order [W m^-2 sr^-1]
-    float sumY2;         // squared luminance of the samples
+    float sumY2;         // of the replicates: squared luminance of the samples, or under SAMPLER_SOBOL of
+                         // the block's mean times the samples in it
     uint digest;         // sum over all bounces of a hash of what was hit
     uint samplesDone;    // samples in this block so far
     uint status;         // one of BLOCK_*
@@ -31,8 +32,8 @@ struct PixelBlock
     uint primitiveTests;
     uint bounces;        // surface hits
     uint faults;         // FAULT_* of the last dispatch; such a dispatch changes nothing else
+    uint clamped;        // contributions of light that were clamped
     uint unused0;
-    uint unused1;
 };
 GPU_STRUCT_SIZE(PixelBlock, 64);
 GPU_FIELD(PixelBlock, digest, 16);
@@ -117,9 +118,9 @@ struct SuspendedPath
     uint boxTests;
     uint primitiveTests;
     uint bounces;
+    uint clamped;
     uint unused0;
     uint unused1;
-    uint unused2;
     uint stack[MAX_SUSPENDED_STACK];
 };
 GPU_STRUCT_SIZE(SuspendedPath, 256 + 4 * 64);

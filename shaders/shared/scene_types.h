@@ -157,6 +157,8 @@ GPU_FIELD(Material, emissionTexture, 124);
 SHARED_CONST uint LIGHT_POINT = 0u;
 SHARED_CONST uint LIGHT_SPOT = 1u;
 SHARED_CONST uint LIGHT_DIRECTIONAL = 2u;
+SHARED_CONST uint LIGHT_TRIANGLE = 3u;  // that shines: from here on `slot` and `instance` say all
+SHARED_CONST uint LIGHT_SPHERE = 4u;
 
 struct Light
 {
@@ -193,15 +195,26 @@ SHARED_CONST uint TEXTURE_CLAMP_S = 2u;  // rather than repeated
 SHARED_CONST uint TEXTURE_CLAMP_T = 4u;
 SHARED_CONST uint TEXTURE_NEAREST = 8u;  // rather than bilinear
 
-// A picture of RGBA8 texels, a uint each with red lowest, top row first.
+// A way of looking up a picture of RGBA8 texels, a uint each with red lowest, top row first. The buffer of
+// the texels of all pictures begins with the sRGB curve at 0 to 255 of 255, as the bits of floats.
+SHARED_CONST uint SRGB_TABLE_SIZE = 256u;
+
 struct Texture
 {
     uint firstTexel;  // in the buffer of texture texels
     uint width;
     uint height;
     uint flags;       // TEXTURE_* bits
+    vec3 rowS;        // texture coordinates (u, v) are looked up at s = rowS . (u, v, 1) and
+    float strength;   // of a normal map: its x and y are multiplied by this
+    vec3 rowT;        // t = rowT . (u, v, 1), t up
+    uint unused0;
+    vec3 mean;        // over all texels, of red, green and blue, linear
+    uint unused1;
 };
-GPU_STRUCT_SIZE(Texture, 16);
+GPU_STRUCT_SIZE(Texture, 64);
+GPU_FIELD(Texture, strength, 28);
+GPU_FIELD(Texture, mean, 48);
 
 SHARED_CONST uint CAMERA_PERSPECTIVE = 0u;
 SHARED_CONST uint CAMERA_ORTHOGRAPHIC = 1u;

@@ -25,20 +25,20 @@ void put(FilmPixel f)
 {
     put(f.sumsA); put(f.sumsB); put(f.samplesA); put(f.samplesB); put(f.digest); put(f.badSamples);
     put(f.indirectRays); put(f.shadowRays); put(f.boxTests); put(f.primitiveTests); put(f.bounces);
-    put(f.unused0); put(f.unused1);
+    put(f.clamped);
 }
 
 void put(PixelBlock b)
 {
     put(b.sum); put(b.sumY2); put(b.digest); put(b.samplesDone); put(b.status); put(b.badSamples);
     put(b.indirectRays); put(b.shadowRays); put(b.boxTests); put(b.primitiveTests);
-    put(b.bounces); put(b.faults); put(b.unused0); put(b.unused1);
+    put(b.bounces); put(b.faults); put(b.clamped); put(b.unused0);
 }
 
 void put(AdaptiveRule r)
 {
     put(r.rule); put(r.epsilon); put(r.minSamples); put(r.maxSamples);
-    put(r.targetError); put(r.unused0); put(r.unused1); put(r.unused2);
+    put(r.targetError); put(r.overBlocks); put(r.unused0); put(r.unused1);
 }
 
 void main()

@@ -34,7 +34,7 @@ TEST_F(SharedStructs, areReadBackFieldByField)
         numbered<TriangleCorners>(next, expected), numbered<Material>(next, expected),
         numbered<Light>(next, expected),      numbered<Frame>(next, expected),
         numbered<PixelBlock>(next, expected), numbered<SuspendedPath>(next, expected),
-        numbered<ObjectInstance>(next, expected)};
+        numbered<ObjectInstance>(next, expected), numbered<Texture>(next, expected)};
     std::vector<std::byte> job = numbered<Dispatch>(next, expected);
     job.erase(job.begin(), job.begin() + sizeof(Dispatch));
 

@@ -15,7 +15,8 @@ layout(std430, binding = 5) readonly buffer Frames { Frame frames[]; };
 layout(std430, binding = 6) readonly buffer Blocks { PixelBlock blocks[]; };
 layout(std430, binding = 7) readonly buffer Paths { SuspendedPath paths[]; };
 layout(std430, binding = 8) readonly buffer Instances { ObjectInstance instances[]; };
-layout(std430, binding = 9) writeonly buffer Words { uint words[]; };
+layout(std430, binding = 9) readonly buffer Textures { Texture textures[]; };
+layout(std430, binding = 10) writeonly buffer Words { uint words[]; };
 layout(push_constant) uniform JobBlock { Dispatch job; };
 
 uint count = 0u;
@@ -75,7 +76,7 @@ void main()
     PixelBlock b = blocks[1];
     put(b.sum); put(b.sumY2); put(b.digest); put(b.samplesDone); put(b.status); put(b.badSamples);
     put(b.indirectRays); put(b.shadowRays); put(b.boxTests); put(b.primitiveTests);
-    put(b.bounces); put(b.faults); put(b.unused0); put(b.unused1);
+    put(b.bounces); put(b.faults); put(b.clamped); put(b.unused0);
     PathState p = paths[1].path;
     put(p.org); put(p.phase); put(p.dir); put(p.depth); put(p.beta); put(p.pixel); put(p.L); put(p.sampleIndex);
     put(p.shadowOrg); put(p.shadowTMax); put(p.shadowDir); put(p.digest); put(p.Ld); put(p.mediumEta);
@@ -83,12 +84,15 @@ void main()
     put(p.hit);
     put(paths[1].traversal);
     put(paths[1].indirectRays); put(paths[1].shadowRays); put(paths[1].boxTests); put(paths[1].primitiveTests);
-    put(paths[1].bounces); put(paths[1].unused0); put(paths[1].unused1); put(paths[1].unused2);
+    put(paths[1].bounces); put(paths[1].clamped); put(paths[1].unused0); put(paths[1].unused1);
     for (uint i = 0u; i < MAX_SUSPENDED_STACK; i++) put(paths[1].stack[i]);
     ObjectInstance o = instances[1];
     put(o.toObject0); put(o.rootRef); put(o.toObject1); put(o.firstNumber); put(o.toObject2); put(o.material);
     put(o.toWorld0); put(o.unused0); put(o.toWorld1); put(o.unused1); put(o.toWorld2); put(o.unused2);
     put(o.translation); put(o.unused3); put(o.lo); put(o.unused4); put(o.hi); put(o.unused5);
+    Texture x = textures[1];
+    put(x.firstTexel); put(x.width); put(x.height); put(x.flags); put(x.rowS); put(x.strength);
+    put(x.rowT); put(x.unused0); put(x.mean); put(x.unused1);
     put(job.tileX); put(job.tileY); put(job.tileWidth); put(job.tileHeight);
     put(job.firstSample); put(job.sampleCount); put(job.stepBudget); put(job.unused0);
 }

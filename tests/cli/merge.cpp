@@ -91,6 +91,8 @@ TEST_F(Merge, shardsOfOtherKindsOfPictures_areTheFileOfOneRun)
                                {"--spp", "17", "--integrator", "phong", "--shadows", "on",
                                 "--terms", "diffuse", "--normals", "flat"},
                                {"--spp", "24", "--max-bounces", "0", "--tile", "5"},
+                               {"--spp", "20", "--sampler", "sobol", "--roulette-depth", "1",
+                                "--clamp-indirect", "0.05"},
                                {"--spp", "24", "--keep-film"}};
     for (const Arguments& kind : kinds) {
         renderShards(kind, 3);

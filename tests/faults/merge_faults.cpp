@@ -268,7 +268,7 @@ TEST_F(MergeFaults, countsThatDoNotFitTheRange_areRefused)
 TEST_F(MergeFaults, countersThatMakeNoSense_areRefused)
 {
     const std::string rest =
-        " indirectRays=0 shadowRays=0 boxTests=0 primitiveTests=0 bounces=0 badSamples=0";
+        " indirectRays=0 shadowRays=0 boxTests=0 primitiveTests=0 bounces=0 badSamples=0 clamped=0";
     for (const std::string& text :
          {std::string(), std::string("cameraRays=640"), "cameraRays=640" + rest + " ",
           "cameraRays=640" + rest + " more=1", "cameraRays=-640" + rest,

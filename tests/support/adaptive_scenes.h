@@ -44,6 +44,7 @@ struct SmallDevice : Device {
     {
         return inner->beginAdaptive(window, rule);
     }
+    uint32_t samplerKind() const override { return inner->samplerKind(); }
     uint32_t maxTilePixels() const override { return inner->maxTilePixels(); }
     uint64_t maxAdaptivePixels() const override { return 300; }
     DeviceStatistics statistics() const override { return inner->statistics(); }

@@ -1,5 +1,6 @@
 // PNG files in: our own, and those of other kinds, made with libpng.
 #include "image/png_read.h"
+#include "image/texel_image.h"
 #include "support/pictures.h"
 
 #include <png.h>
@@ -86,6 +87,25 @@ TEST(PngRead, alpha_isLeftOutAndTold)
         readPngBytes(makePng(1, 1, {PNG_COLOR_TYPE_RGB_ALPHA, 8}, {255, 51, 0, 128}));
     EXPECT_TRUE(picture.hadAlpha);
     EXPECT_EQ(picture.srgb.rgb, (std::vector<float>{1, 0.2f, 0}));
+}
+
+TEST(PngTexels, holdTheValuesOfEveryKind_andAlpha)
+{
+    auto texels = [](const Kind& kind, const FileBytes& rows) {
+        return decodeTexels("a.png", makePng(2, 1, kind, rows)).rgba;
+    };
+    using Texels = std::vector<uint32_t>;
+    EXPECT_EQ(texels({PNG_COLOR_TYPE_RGB_ALPHA, 8}, {1, 2, 3, 4, 5, 6, 7, 8}),
+              (Texels{0x04030201, 0x08070605}));
+    EXPECT_EQ(texels({PNG_COLOR_TYPE_RGB, 8}, {1, 2, 3, 5, 6, 7}), (Texels{0xff030201, 0xff070605}));
+    EXPECT_EQ(texels({PNG_COLOR_TYPE_GRAY_ALPHA, 8}, {9, 0, 10, 255}), (Texels{0x090909, 0xff0a0a0a}));
+    EXPECT_EQ(texels({PNG_COLOR_TYPE_GRAY, 1}, {0x40}), (Texels{0xff000000, 0xffffffff}));
+    EXPECT_EQ(texels({PNG_COLOR_TYPE_PALETTE, 1}, {0x40}), (Texels{0xff663300, 0xff0000ff}));
+    // 16 bits are rounded: 0x0080 is 0.498, 0x80ff 128.494 of 255
+    EXPECT_EQ(texels({PNG_COLOR_TYPE_GRAY, 16}, {0x00, 0x80, 0x80, 0xff}),
+              (Texels{0xff000000, 0xff808080}));
+    EXPECT_EQ(texels({PNG_COLOR_TYPE_RGB, 8, PNG_INTERLACE_ADAM7}, {1, 2, 3, 5, 6, 7}),
+              (Texels{0xff030201, 0xff070605}));
 }
 
 }  // namespace

@@ -214,13 +214,13 @@ TEST(Mtl, diffuseBecomesBaseColorAndEmissionIsKept)
 TEST(Mtl, missingFileAndUnusedKeysAreToldAndBecomeGrey)
 {
     SceneFolder files;
-    files.write("m.mtl", "newmtl a\nKd 1 1 1\nNs 10\nmap_Kd ../../../../etc/passwd\n");
+    files.write("m.mtl", "newmtl a\nKd 1 1 1\nNs 10\nmap_Ks ../../../../etc/passwd\n");
     files.write("a.obj", "mtllib m.mtl none.mtl\n" + TRIANGLE + "usemtl b\nf 1 2 3\n");
     Scene scene;
     const std::string warning = warningsOf([&] { scene = files.load("a.obj"); });
     EXPECT_EQ(scene.materials.at(0).baseColor, vec3(0.7f));
     EXPECT_CONTAINS(warning, "a.obj:1: material file \"none.mtl\" is missing");
-    EXPECT_CONTAINS(warning, "m.mtl: only Ka, Kd, Ks, Ke and Ns are used; left out: map_Kd");
+    EXPECT_CONTAINS(warning, "norm are used; left out: map_Ks");
 }
 
 TEST(Mtl, ambientSpecularAndExponentAreForPhong)

@@ -42,7 +42,8 @@ const std::vector<Rule>& rules()
         {std::regex(R"(INOUT\(\w+\)\s+\w+\[|OUT\(\w+\)\s+\w+\[|[(,]\s*(float|u?int|u?vec\d)\s+\w+\[\d*\w*\]\s*[,)])"),
          "an array parameter is copied in GLSL and a pointer in C++; wrap it in a struct"},
         {std::regex(R"(\bmat[234](x[234])?\b)"), "matrix products add in any order; write them out"},
-        {std::regex(R"(\b(sampler|texture|texelFetch)\w*\b)"), "buffers are read through accessors"},
+        {std::regex(R"(\btexture\s*\(|\b(texelFetch|texture(Lod|Grad|Proj|Offset|Gather|Size|Query))\w*|\b[iu]?sampler([123]D|Cube|Buffer)\w*)"),
+         "buffers are read through accessors"},
     };
     return all;
 }

@@ -1,0 +1,71 @@
+#include "app/sampling_options.h"
+
+#include "app/option_kinds.h"
+#include "scene/sampling.h"
+
+namespace sahl {
+
+void addSamplingOptions(CLI::App& command, SceneOptions& scene)
+{
+    auto setSampler = [&scene](const std::string& text) {
+        scene.samplerKind = static_cast<uint32_t>(
+            parseChoice("--sampler", text, {SAMPLERS.begin(), SAMPLERS.end()}));
+    };
+    command
+        .add_option_function<std::string>(
+            "--sampler", setSampler,
+            withDefault("independent, or sobol: blocks of 8 samples spread evenly\n(docs/sampling.md)",
+                        "the scene's, else independent"))
+        ->type_name("NAME")
+        ->group("Picture");
+    auto setRoulette = [&scene](const std::string& text) {
+        scene.rouletteDepth =
+            text == "off" ? NO_ROULETTE : parseNumber("--roulette-depth", text, {0, MAX_ROULETTE_DEPTH});
+    };
+    command
+        .add_option_function<std::string>(
+            "--roulette-depth", setRoulette,
+            withDefault(fmt::format("scatterings after which paths that carry little end by\n"
+                                    "chance, 0 to {}, or off; changes no mean",
+                                    MAX_ROULETTE_DEPTH),
+                        "the scene's, else off"))
+        ->type_name("N")
+        ->group("Picture");
+    auto setClamp = [&scene](const std::string& text) {
+        scene.clampIndirect =
+            text == "off" ? 0.0f
+                          : static_cast<float>(parseReal("--clamp-indirect", text, CLAMP_RANGE.lo, CLAMP_RANGE.hi));
+    };
+    command
+        .add_option_function<std::string>(
+            "--clamp-indirect", setClamp,
+            withDefault("most luminance that light scattered more than once adds\n"
+                        "to a sample at a time, or off; biased, too dark",
+                        "the scene's, else off"))
+        ->type_name("X")
+        ->group("Picture");
+}
+
+ImageMetadata describeSampling(const RenderSettings& settings)
+{
+    ImageMetadata entries = {{"sahl.sampler", samplerName(settings.samplerKind)},
+                             {"sahl.varianceOver",
+                              settings.samplerKind == SAMPLER_SOBOL ? "blocks" : "samples"}};
+    if (settings.integrator != INTEGRATOR_PATH) return entries;
+    if (settings.rouletteDepth != NO_ROULETTE)
+        entries["sahl.rouletteDepth"] = std::to_string(settings.rouletteDepth);
+    if (settings.clampIndirect > 0) {
+        entries["sahl.clampIndirect"] = fmt::format("{}", settings.clampIndirect);
+        entries["sahl.biased"] = "yes";
+    }
+    return entries;
+}
+
+std::string clampSummary(const RenderSettings& settings, const Counters& counters)
+{
+    if (!(settings.clampIndirect > 0) || settings.integrator != INTEGRATOR_PATH) return "";
+    return fmt::format("indirect light clamped to {:g} (biased): {} times, in {} samples",
+                       settings.clampIndirect, counters.clamped, counters.cameraRays);
+}
+
+}  // namespace sahl

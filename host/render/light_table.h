@@ -1,0 +1,32 @@
+// What light sampling needs of a scene: every light that it may choose, by its power.
+#pragma once
+
+#include "device/device.h"
+
+#include <vector>
+
+namespace sahl {
+
+/// The lights of a scene and the chances with which light sampling takes them. Also that of the
+/// probe, whose texels are chosen by a table of their own.
+struct LightTable {
+    std::vector<Light> lights;  ///< of the scene file, then the shapes that shine, in an order that
+                                ///< does not depend on the tree; all of them are chosen among
+    std::vector<AliasEntry>
+        entries;  ///< of the lights, if any of them shines, then of the probe's texels
+    std::vector<uint64_t>
+        texelMasses;          ///< of the probe, see writeTexelWeights(); empty: it is not sampled
+    uint choiceCount = 0;     ///< lights that entries are for
+    float lightPerPower = 0;  ///< of shapes: chance to be chosen per luminance and area [sr W^-1]
+    float probeChance = 0;    ///< that the probe is taken, and no light
+};
+
+/// More shapes that shine are not sampled: paths may still run into them.
+constexpr uint64_t MAX_SHAPE_LIGHTS = 1u << 20;
+
+/// Makes the table of a scene with its tree.
+///   scene  its lights are those of the scene file; frame.rootRef, probe and lightSampling are set
+/// A warning says so when there are more than MAX_SHAPE_LIGHTS.
+LightTable makeLightTable(const DeviceScene& scene);
+
+}  // namespace sahl

@@ -1,0 +1,33 @@
+#include "scene/sampling.h"
+
+#include <algorithm>
+
+namespace sahl {
+
+static_assert(SAMPLER_INDEPENDENT == 0 && SAMPLER_SOBOL == 1);
+
+const char* samplerName(uint32_t samplerKind)
+{
+    return std::data(SAMPLERS)[samplerKind];
+}
+
+void readSampling(const JsonObject& integrator, RenderSettings& settings)
+{
+    const std::string name = integrator.choice("sampler", SAMPLERS);
+    settings.samplerKind = static_cast<uint32_t>(std::ranges::find(SAMPLERS, name) - SAMPLERS.begin());
+    settings.rouletteDepth = NO_ROULETTE;
+    if (integrator.has("rouletteDepth"))
+        settings.rouletteDepth = integrator.uint("rouletteDepth", 0, 0, MAX_ROULETTE_DEPTH);
+    settings.clampIndirect = 0;
+    if (integrator.has("clampIndirect"))
+        settings.clampIndirect = static_cast<float>(integrator.number("clampIndirect", 0, CLAMP_RANGE));
+}
+
+void applySamplingOptions(RenderSettings& settings, const SceneOptions& options)
+{
+    settings.samplerKind = options.samplerKind.value_or(settings.samplerKind);
+    settings.rouletteDepth = options.rouletteDepth.value_or(settings.rouletteDepth);
+    settings.clampIndirect = options.clampIndirect.value_or(settings.clampIndirect);
+}
+
+}  // namespace sahl

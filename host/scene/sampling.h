@@ -1,0 +1,25 @@
+// How samples are drawn and weighed, as a scene file and the command line ask for it: the sampler, Russian
+// roulette, the clamp of indirect light.
+#pragma once
+
+#include "scene/json_fields.h"
+#include "scene/scene.h"
+
+namespace sahl {
+
+constexpr uint32_t MAX_ROULETTE_DEPTH = 65535;
+constexpr Range CLAMP_RANGE = {1e-20, 1e18};  ///< of luminance [W m^-2 sr^-1]
+
+/// All samplers, in the order of SAMPLER_*.
+constexpr std::initializer_list<const char*> SAMPLERS = {"independent", "sobol"};
+
+/// "independent" or "sobol".
+const char* samplerName(uint32_t samplerKind);
+
+/// Reads "sampler", "rouletteDepth" and "clampIndirect" of the integrator. What is absent is off.
+void readSampling(const JsonObject& integrator, RenderSettings& settings);
+
+/// Takes over what the command line says.
+void applySamplingOptions(RenderSettings& settings, const SceneOptions& options);
+
+}  // namespace sahl

@@ -1,0 +1,111 @@
+// --sampler, --roulette-depth and --clamp-indirect as users meet them.
+#include "cli/sahl_program.h"
+#include "image/exr_layers.h"
+
+namespace sahl::testing {
+namespace {
+
+class Sampling : public SceneFolderTest {
+protected:
+    ImageMetadata metadataAfter(const Arguments& more)
+    {
+        Arguments arguments = {"--spp", "16", "-o", "ball.exr", "--stats", "ball-stats.json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const RunResult result = render(arguments);
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        words_ = result.err;
+        return describeExr(folder / "ball.exr").metadata;
+    }
+
+    nlohmann::json counters() const
+    {
+        return nlohmann::json::parse(textOf(folder / "ball-stats.json"))["counters"];
+    }
+
+    std::string words_;  // of the last render
+};
+
+TEST_F(Sampling, isToldByFileSummaryAndStatistics)
+{
+    ImageMetadata plain = metadataAfter({});
+    EXPECT_EQ(plain["sahl.sampler"], "independent");
+    EXPECT_EQ(plain["sahl.varianceOver"], "samples");
+    for (const char* name : {"sahl.rouletteDepth", "sahl.clampIndirect", "sahl.biased"})
+        EXPECT_FALSE(plain.contains(name)) << name;
+    const uint64_t rays = counters()["indirectRays"];
+    EXPECT_EQ(counters()["clamped"], 0);
+    EXPECT_FALSE(has(words_, "clamped"));
+
+    ImageMetadata all = metadataAfter({"--sampler", "sobol", "--roulette-depth", "0", "--clamp-indirect", "0.05"});
+    EXPECT_EQ(all["sahl.sampler"], "sobol");
+    EXPECT_EQ(all["sahl.varianceOver"], "blocks");
+    EXPECT_EQ(all["sahl.rouletteDepth"], "0");
+    EXPECT_EQ(all["sahl.clampIndirect"], "0.05");
+    EXPECT_EQ(all["sahl.biased"], "yes");
+    EXPECT_LT(counters()["indirectRays"], rays);
+    EXPECT_GT(counters()["clamped"], 0);
+    EXPECT_HAS(words_, "indirect light clamped to 0.05 (biased): ");
+}
+
+TEST_F(Sampling, isReadFromTheSceneAndCanBeSwitchedOff)
+{
+    nlohmann::json scene = nlohmann::json::parse(ballScene());
+    scene["integrator"].update({{"sampler", "sobol"}, {"rouletteDepth", 2}, {"clampIndirect", 0.5}});
+    writeText(folder / "ball.json", scene.dump());
+    ImageMetadata read = metadataAfter({});
+    EXPECT_EQ(read["sahl.sampler"], "sobol");
+    EXPECT_EQ(read["sahl.rouletteDepth"], "2");
+    EXPECT_EQ(read["sahl.clampIndirect"], "0.5");
+    ImageMetadata off =
+        metadataAfter({"--sampler", "independent", "--roulette-depth", "off", "--clamp-indirect", "off"});
+    EXPECT_EQ(off["sahl.sampler"], "independent");
+    EXPECT_FALSE(off.contains("sahl.rouletteDepth"));
+    EXPECT_FALSE(off.contains("sahl.clampIndirect"));
+
+    // Saved with its tree, the scene keeps them.
+    ASSERT_EQ(sahl({"bvh", "ball.json", "-o", "ball.sahl"}, here()).exitCode, 0);
+    ASSERT_EQ(sahl({"render", "ball.sahl", "--device", "cpu", "--spp", "16", "-o", "saved.exr"}, here()).exitCode, 0);
+    ImageMetadata saved = describeExr(folder / "saved.exr").metadata;
+    for (const char* name : {"sahl.sampler", "sahl.rouletteDepth", "sahl.clampIndirect", "sahl.biased"})
+        EXPECT_EQ(saved[name], read[name]) << name;
+}
+
+TEST_F(Sampling, mistakesAreRefusedWithTheReason)
+{
+    expectRefused(render({"--sampler", "sobel"}), 2, "--sampler 'sobel' is not known; did you mean sobol?");
+    expectRefused(render({"--roulette-depth", "never"}), 2, "--roulette-depth 'never' is not a whole number");
+    expectRefused(render({"--clamp-indirect", "0"}), 2, "--clamp-indirect 0 is out of range");
+    expectRefused(render({"--sampler", "sobol", "--adaptive", "report"}), 2, "looks at single samples");
+    expectRefused(render({"--sampler", "sobol", "--adaptive", "crossed", "--min-spp", "16"}), 2,
+                  "--min-spp is 16, and by the sampler sobol crossed needs 2 blocks of 8 samples in each half");
+    expectRefused(render({"--sampler", "sobol", "--adaptive", "joint", "--min-spp", "8"}), 2, "give 16 at least");
+    EXPECT_EQ(render({"--sampler", "sobol", "--adaptive", "joint", "--min-spp", "16", "--max-spp", "32"}).exitCode, 0);
+}
+
+TEST_F(Sampling, partsOfOtherSamplersAreNotMerged)
+{
+    ASSERT_EQ(render({"--spp", "16", "--sample-range", "0:8", "-o", "a.exr"}).exitCode, 0);
+    ASSERT_EQ(render({"--spp", "16", "--sample-range", "8:16", "--sampler", "sobol", "-o", "b.exr"}).exitCode, 0);
+    const RunResult result = sahl({"merge", "a.exr", "b.exr", "-o", "c.exr"}, here());
+    EXPECT_EQ(result.exitCode, 3);
+    EXPECT_HAS(result.err, "sahl.sampler is sobol, that of a.exr is independent");
+}
+
+TEST_F(Sampling, compareKnowsWhatTheVarianceIsOver)
+{
+    ASSERT_EQ(render({"--spp", "8", "--sampler", "sobol", "-o", "a.exr"}).exitCode, 0);
+    ASSERT_EQ(render({"--spp", "8", "--sampler", "sobol", "--seed", "1", "-o", "b.exr"}).exitCode, 0);
+    const RunResult oneBlock = sahl({"compare", "a.exr", "b.exr"}, here());
+    EXPECT_EQ(oneBlock.exitCode, 1);
+    EXPECT_HAS(oneBlock.out, "more than 8 by the sampler sobol");
+    // Of the same seed, but by another sampler: other random numbers.
+    ASSERT_EQ(render({"--spp", "32", "--sampler", "sobol", "-o", "a.exr"}).exitCode, 0);
+    ASSERT_EQ(render({"--spp", "32", "-o", "b.exr"}).exitCode, 0);
+    const RunResult result = sahl({"compare", "a.exr", "b.exr", "--json"}, here());
+    const nlohmann::json json = nlohmann::json::parse(result.out);
+    EXPECT_FALSE(json["statistics"].is_null());
+    EXPECT_NE(json["verdict"], "differ");
+}
+
+}  // namespace
+}  // namespace sahl::testing
