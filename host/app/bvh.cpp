@@ -32,9 +32,10 @@ struct SceneBytes {
 SceneBytes bytesOf(const DeviceScene& scene)
 {
     return {scene.nodes.size_bytes(), scene.primitives.size_bytes(),
-            scene.triangleCorners.size_bytes(), scene.probeTexels.size_bytes(),
+            scene.triangleCorners.size_bytes(),
+            scene.probeTexels.size_bytes() + scene.textureTexels.size_bytes(),
             scene.materials.size_bytes() + scene.lights.size_bytes() +
-                scene.instances.size_bytes()};
+                scene.instances.size_bytes() + scene.textures.size_bytes()};
 }
 
 double mebibytes(uint64_t bytes)

@@ -375,7 +375,7 @@ Command addRenderCommand(CLI::App& app)
         app.add_subcommand("render", "render a scene into pictures")->group("Commands");
     command
         ->add_option("scene", options->common.scenePath,
-                     "scene (.json), mesh (.obj, .ply) or saved scene (.sahl)")
+                     "scene (.json, .gltf, .glb), mesh (.obj, .ply) or saved scene (.sahl)")
         ->required()
         ->type_name("SCENE");
     addOutputOptions(*command, *options);

@@ -64,7 +64,7 @@ const char* inputOf(const std::string& command)
     if (command == "tonemap") return "a picture: an .exr, .hdr or .pfm file";
     if (command == "compare") return "two pictures: .exr, .hdr, .pfm or .png files";
     if (command == "merge") return "parts of a picture: .exr files by sahl render --shard, and -o";
-    return "a scene: a .json, .obj or .ply file";
+    return "a scene: a .json, .gltf, .glb, .obj or .ply file";
 }
 
 /// The option that a message of the library starts with ("--spp: 1 required ..."), or null.

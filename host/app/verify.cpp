@@ -182,7 +182,8 @@ Command addVerifyCommand(CLI::App& app)
     command
         ->add_option(
             "scene", options->common.scenePath,
-            "scene (.json), mesh (.obj, .ply) or saved scene (.sahl);\nwithout one a small "
+            "scene (.json, .gltf, .glb), mesh (.obj, .ply) or saved scene (.sahl);\n"
+            "without one a small "
             "built-in scene")
         ->type_name("SCENE");
     command

@@ -155,7 +155,7 @@ std::vector<std::string> notesOn(const LoadedPicture& a, const LoadedPicture& b,
         const std::string rule = textIn(picture->metadata, "sahl.adaptive");
         notes.push_back(fmt::format(
             "{} says that it is biased ({}): a difference is to be expected", picture->name,
-            clamp.empty() ? rule : "indirect light clamped to " + clamp));
+            clamp.empty() || clamp == "off" ? rule : "indirect light clamped to " + clamp));
     }
     if (textIn(a.metadata, "sahl.crop") != textIn(b.metadata, "sahl.crop")) {
         notes.push_back("the files are windows of larger pictures, and not the same ones");

@@ -11,9 +11,12 @@ namespace sahl {
 
 namespace {
 
-double emittedLuminance(const Material& material)
+/// Of the material's emission, on average over its texture.
+double emittedLuminance(const Material& material, std::span<const Texture> textures)
 {
-    const glm::dvec3 c(material.emission);
+    glm::dvec3 c(material.emission);
+    if (material.emissionTexture != NO_TEXTURE)
+        c *= glm::dvec3(textures[material.emissionTexture - 1].mean);
     return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
 }
 
@@ -80,7 +83,7 @@ public:
     Collector(const DeviceScene& scene, size_t limit) : scene_(scene), limit_(limit)
     {
         for (const Material& material : scene.materials)
-            luminances_.push_back(emittedLuminance(material));
+            luminances_.push_back(emittedLuminance(material, scene.textures));
     }
 
     bool anythingShines() const

@@ -179,6 +179,7 @@ bool TreeEvents::real(float value)
 
 bool TreeEvents::textureTexel(uint64_t value)
 {
+    if (prepared_.scene.textures.empty()) throw wrong("a number is out of place: there are no textures");
     if (value > std::numeric_limits<uint32_t>::max())
         throw wrong(fmt::format("{} is no texel of a texture: it has more than 32 bits", value));
     prepared_.scene.textureTexels.push_back(static_cast<uint32_t>(value));

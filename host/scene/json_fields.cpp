@@ -127,6 +127,12 @@ JsonObject::JsonObject(const JsonDocument& document, const JsonNode& node, const
     }
 }
 
+JsonObject::JsonObject(const JsonDocument& document, const JsonNode& node, const std::string& what)
+    : document_(document), node_(node), what_(what)
+{
+    requireKind(document, node, what, JsonNode::Kind::object);
+}
+
 const JsonNode* JsonObject::find(const std::string& key) const
 {
     return findKey(node_, key);

@@ -46,6 +46,8 @@ public:
     /// The same with keys of another format than that of scene files.
     JsonObject(const JsonDocument& document, const JsonNode& node, const std::string& what,
                const KeySet& keys);
+    /// The same for a format that permits any further keys.
+    JsonObject(const JsonDocument& document, const JsonNode& node, const std::string& what);
 
     const JsonNode* find(const std::string& key) const;  ///< nullptr when absent
     const JsonNode& at(const std::string& key) const;    ///< of a required key

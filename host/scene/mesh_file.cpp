@@ -27,7 +27,8 @@ ObjFile readMeshFile(const fs::path& file, const PathPolicy& policy)
     if (extension == ".obj") return readObj(file, policy);
     if (extension == ".ply") return {readPly(file), {{"default"}}};
     requireRegularFile(file);
-    throw badInput("{}: \"{}\" is no kind of mesh that is read; use .obj or .ply, also as .gz",
+    throw badInput("{}: \"{}\" is no kind of mesh that is read; use .obj, .ply, .gltf or "
+                   ".glb, also as .gz",
                    file.string(), extension);
 }
 

@@ -3,6 +3,7 @@
 #include "bvh/box.h"
 #include "scene/adaptive.h"
 #include "scene/camera.h"
+#include "scene/gltf_scene.h"
 #include "scene/mesh_file.h"
 #include "scene/primitives.h"
 #include "scene/phong.h"
@@ -16,12 +17,6 @@
 namespace sahl {
 
 namespace {
-
-void useStudioProbe(Scene& scene, const SceneOptions& options)
-{
-    uint filter = probeFilter(options.probeFilter.value_or("bilinear"));
-    setProbe(scene, makeStudioProbe(STUDIO_WIDTH, STUDIO_HEIGHT), PROBE_LATLONG, filter, "studio");
-}
 
 Scene loadMeshScene(const fs::path& path, const SceneOptions& options)
 {
@@ -88,6 +83,12 @@ void applyProbeOption(Scene& scene, const SceneOptions& options)
              probeFilter(options.probeFilter.value_or("bilinear")), options.probe->string());
 }
 
+void useStudioProbe(Scene& scene, const SceneOptions& options)
+{
+    uint filter = probeFilter(options.probeFilter.value_or("bilinear"));
+    setProbe(scene, makeStudioProbe(STUDIO_WIDTH, STUDIO_HEIGHT), PROBE_LATLONG, filter, "studio");
+}
+
 void checkPictureSize(const RenderSettings& settings, const std::string& name)
 {
     uint64_t pixels = uint64_t{settings.width} * settings.height;
@@ -120,12 +121,15 @@ Box extentOf(const Scene& scene)
 Scene loadScene(const fs::path& path, const SceneOptions& options)
 {
     std::string extension = meshExtension(path);
-    if (extension != ".json" && !isMeshFile(path)) {
+    if (extension != ".json" && !isMeshFile(path) && !isGltfFile(path)) {
         requireRegularFile(path);
-        throw badInput("{}: \"{}\" files are not read; use .json (see scenes/README.md), .obj or .ply",
+        throw badInput("{}: \"{}\" files are not read; use .json (see scenes/README.md), .gltf, .glb, "
+                       ".obj or .ply",
                        path.string(), extension);
     }
-    Scene scene = isMeshFile(path) ? loadMeshScene(path, options) : loadJsonScene(path, options);
+    Scene scene = isGltfFile(path)   ? loadGltfScene(path, options)
+                  : isMeshFile(path) ? loadMeshScene(path, options)
+                                     : loadJsonScene(path, options);
     warnAboutOddScene(scene);
     return scene;
 }

@@ -123,6 +123,7 @@ struct SceneOptions {
     std::optional<uint32_t> integrator;  ///< one of INTEGRATOR_*
     std::optional<uint32_t> samplerKind, rouletteDepth;  ///< one of SAMPLER_*; NO_ROULETTE: off
     std::optional<float> clampIndirect;                  ///< 0: off
+    std::optional<uint32_t> lightSampling;               ///< one of LIGHTS_*
     std::optional<uint32_t> terms;       ///< of phong: bits of SHADING_TERMS
     std::optional<bool> shadows;         ///< of phong
     std::optional<bool> flatNormals;     ///< geometric normals in place of interpolated ones
@@ -136,8 +137,8 @@ struct SceneOptions {
     std::vector<fs::path> allowedPaths;       ///< folders outside the scene's own to read from
 };
 
-/// Reads a scene: .json (scenes/schema.json) or a mesh, .obj or .ply (framing camera, default studio
-/// probe when no probe is named). Throws badInput with file, line and column or object, and what would help.
+/// Reads a scene: .json (scenes/schema.json), .gltf or .glb, or a mesh, .obj or .ply (framing camera,
+/// default studio probe when no probe is named; glTF files may have cameras and lights of their own). Throws badInput with file, line and column or object, and what would help.
 Scene loadScene(const fs::path& path, const SceneOptions& options);
 
 /// A small scene that needs no file: 2 spheres of triangles with smooth normals, a lamp, a point

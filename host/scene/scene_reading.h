@@ -18,6 +18,8 @@ struct SharedGroup {
     std::vector<Placement> inside;
 };
 
+struct GltfModel;
+
 struct SceneReading {
     const JsonDocument& document;
     const SceneOptions& options;
@@ -27,6 +29,7 @@ struct SceneReading {
     std::map<std::string, uint32_t> materials;                    ///< of the scene file, by name
     std::map<fs::path, std::shared_ptr<const ObjFile>> objFiles;  ///< each file is read once
     std::map<std::string, Box> namedShapes;
+    std::map<fs::path, std::shared_ptr<const GltfModel>> gltfFiles = {};  ///< read once, too
     Transform outer = {};  ///< of the groups that the shapes being read are in
     std::map<std::string, const JsonNode*> groupNodes = {};  ///< the entries of "groups"
     std::map<std::string, SharedGroup> groups = {};          ///< those that are read
@@ -87,6 +90,9 @@ void applyOptions(RenderSettings& settings, const SceneOptions& options);
 
 /// Reads the environment named by the command line.
 void applyProbeOption(Scene& scene, const SceneOptions& options);
+
+/// Lights a scene that has no light of its own.
+void useStudioProbe(Scene& scene, const SceneOptions& options);
 
 /// Throws badInput unless width * height is a bearable number of pixels.
 void checkPictureSize(const RenderSettings& settings, const std::string& name);

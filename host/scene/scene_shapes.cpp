@@ -1,5 +1,6 @@
 // The shapes of scene files: meshes from files, triangles written out, procedural ones, and
 // spheres.
+#include "scene/gltf_scene.h"
 #include "scene/mesh_file.h"
 #include "scene/numbers.h"
 #include "scene/primitives.h"
@@ -164,11 +165,34 @@ Mesh readDisk(const JsonObject& shape)
                     shape.uint("segments", 64, 3, MAX_DISK_SEGMENTS));
 }
 
+/// Adds the meshes of a glTF file. They have materials of their own, unless the shape names one.
+void readGltfShape(SceneReading& reading, const JsonObject& shape, const fs::path& path)
+{
+    auto& model = reading.gltfFiles[path];
+    if (!model) {
+        auto read = std::make_shared<GltfModel>();
+        readGltf(*read, path, reading.policy);
+        if (!read->cameras.empty() || !read->lights.empty())
+            warn(fmt::format("{}: its cameras and lights are left out: those of the scene count", path.string()));
+        model = read;
+    }
+    GltfPlacing placing;
+    placing.transform = readTransform(reading, shape);
+    placing.smoothNormals = shape.boolean("smoothNormals", false) || reading.options.smoothNormals;
+    if (shape.has("material")) placing.material = readMaterialName(reading, shape);
+    placing.instancesLeft = MAX_INSTANCES - reading.placements;
+    reading.placements += appendGltf(reading.scene, *model, placing);
+}
+
 void readMeshFile(SceneReading& reading, const JsonObject& shape)
 {
     const JsonNode& fileNode = shape.at("file");
     std::string where = reading.document.where(fileNode.offset);
     fs::path path = resolvePath(reading.policy, reading.folder, shape.string("file", ""), where);
+    if (isGltfFile(path)) {
+        readGltfShape(reading, shape, path);
+        return;
+    }
     auto& obj = reading.objFiles[path];
     if (!obj) obj = std::make_shared<ObjFile>(readMeshFile(path, reading.policy));
     bool smooth = shape.boolean("smoothNormals", false) || reading.options.smoothNormals;

@@ -64,20 +64,17 @@ LightSample withRadiance(vec3 wi, float distance, vec3 radiance, float pdf)
 LightSample sampleShapeLight(Light light, SurfaceInteraction isect, float u1, float u2)
 {
     Primitive shape = loadPrimitive(light.slot);
-    uint painted = shape.material;
-    if (HAS_INSTANCES && light.instance != NO_INSTANCE) {
-        uint material = loadInstance(light.instance).material;
-        if (material != NO_MATERIAL) painted = material;
-    }
-    vec3 emission = loadMaterial(painted).emission;
-    float perArea = flushed(luminance(emission) * frame.lightPerPower);
+    uint ofInstance = NO_MATERIAL;
+    if (HAS_INSTANCES && light.instance != NO_INSTANCE) ofInstance = loadInstance(light.instance).material;
+    Material material = loadMaterial(ofInstance != NO_MATERIAL ? ofInstance : shape.material);
+    float perArea = lightPerArea(material);
     ShapeSample ss;
     if (light.type == LIGHT_SPHERE) {
         ss = sampleSphereLight(perArea, shape, light.instance, isect, u1, u2);
     } else {
-        ss = sampleTriangleLight(perArea, shape, light.instance, isect, u1, u2);
+        ss = sampleTriangleLight(perArea, shape, light.instance, ofInstance, isect, u1, u2);
     }
-    return withRadiance(ss.wi, ss.distance, emission, ss.pdf);
+    return withRadiance(ss.wi, ss.distance, emittedAt(material, ss.u, ss.v), ss.pdf);
 }
 
 LightSample sampleProbeLight(uint bits, uint finer, float u1, float u2)

@@ -35,9 +35,10 @@ float unitFloat(uint bits) { return float(bits >> 8u) * 5.96046448e-08f; }
 /// 32 random bits for each of a row of four dimensions, by the scene's sampler.
 uvec4 randomBits4(uint pixel, uint sampleIndex, uint dimension)
 {
-    uvec4 ofSample = hash4(pixel, sampleIndex, dimension, frame.seed);
-    if (frame.samplerKind == SAMPLER_INDEPENDENT) return ofSample;
-    // A block is told from a sample, of which there are fewer than 2^24, by its highest bit. BLOCK_SIZE is 8.
+    if (frame.samplerKind == SAMPLER_INDEPENDENT) return hash4(pixel, sampleIndex, dimension, frame.seed);
+    // There are fewer than 2^24 samples, so the highest bits tell the three kinds of numbers apart: pictures of
+    // both samplers have no noise in common. BLOCK_SIZE is 8.
+    uvec4 ofSample = hash4(pixel, sampleIndex | 0x40000000u, dimension, frame.seed);
     uvec4 ofBlock = hash4(pixel, (sampleIndex >> 3u) | 0x80000000u, dimension, frame.seed);
     return netBits4(ofBlock, ofSample, sampleIndex & 7u);
 }

@@ -105,6 +105,12 @@ vec2 cornersUv(TriangleCorners corners, float b1, float b2)
                 (corners.v0 * b0 + corners.v1 * b1) + corners.v2 * b2);
 }
 
+vec2 triangleUv(Primitive triangle, float b1, float b2)
+{
+    if (triangle.shape == SHAPE_FLAT) return vec2(0.0f);
+    return cornersUv(loadCorners(triangle.shape), b1, b2);
+}
+
 /// Texture coordinates of a sphere as of a globe: v goes from -Y to +Y, u around, with +Z in the middle.
 ///   n  unit direction from the centre, in the sphere's own space
 vec2 sphereUv(vec3 n)
@@ -121,9 +127,15 @@ bool isCutOut(Primitive triangle, uint instanceMaterial, float b1, float b2)
     Material material =
         loadMaterial(instanceMaterial != NO_MATERIAL ? instanceMaterial : triangle.material);
     if (!(material.alphaCutoff > 0.0f) || material.baseColorTexture == NO_TEXTURE) return false;
-    vec2 uv = vec2(0.0f);
-    if (triangle.shape != SHAPE_FLAT) uv = cornersUv(loadCorners(triangle.shape), b1, b2);
+    vec2 uv = triangleUv(triangle, b1, b2);
     return lookUpAlpha(material.baseColorTexture, uv.x, uv.y) < material.alphaCutoff;
+}
+
+/// Radiance of a material at (u, v) [W m^-2 sr^-1].
+vec3 emittedAt(Material material, float u, float v)
+{
+    if (!HAS_TEXTURES || material.emissionTexture == NO_TEXTURE) return material.emission;
+    return flushed3(material.emission * lookUpColor(material.emissionTexture, u, v));
 }
 
 /// The material as it is at (u, v): its numbers times those of its textures.
@@ -132,8 +144,7 @@ Material texturedMaterial(Material material, float u, float v)
     if (!HAS_TEXTURES) return material;
     if (material.baseColorTexture != NO_TEXTURE)
         material.baseColor = material.baseColor * lookUpColor(material.baseColorTexture, u, v);
-    if (material.emissionTexture != NO_TEXTURE)
-        material.emission = flushed3(material.emission * lookUpColor(material.emissionTexture, u, v));
+    material.emission = emittedAt(material, u, v);
     if (material.roughnessTexture != NO_TEXTURE) {
         vec3 share = lookUpColor(material.roughnessTexture, u, v);
         material.roughness = material.roughness * share.y;

@@ -120,6 +120,7 @@ TEST_F(DeviceTest, verifyFindsTheFirstPixelSampleAndBounceOfADifference)
         {
             return inner->beginAdaptive(window, rule);
         }
+        uint32_t samplerKind() const override { return inner->samplerKind(); }
         uint32_t maxTilePixels() const override { return inner->maxTilePixels(); }
         uint64_t maxAdaptivePixels() const override { return inner->maxAdaptivePixels(); }
         DeviceStatistics statistics() const override { return inner->statistics(); }

@@ -100,7 +100,7 @@ TEST(Usage, unknownCommand_suggestsTheNearest)
 
 TEST(Usage, missingAndExtraWords_areNamed)
 {
-    expectUsageError({"render"}, "'sahl render' needs a scene: a .json, .obj or .ply file");
+    expectUsageError({"render"}, "'sahl render' needs a scene: a .json, .gltf, .glb, .obj or .ply file");
     expectUsageError({"tonemap"}, "'sahl tonemap' needs a picture: an .exr, .hdr or .pfm file");
     expectUsageError({"render", "x.json", "--spp"}, "--spp needs a value: N");
     expectUsageError({"render", "x.json", "-o"}, "--output needs a value: FILE");

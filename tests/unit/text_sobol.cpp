@@ -117,15 +117,16 @@ TEST(SobolNet, hasItsStrataInEveryBlockHoweverItIsScrambled)
     std::mt19937 random(5);
     for (int i = 0; i < 500; i++) {
         kernel.frame.seed = uint(random());
-        expectStrata(blockOf(kernel, uint(random()), uint(random() % (1u << 21)), uint(random() % 999) * 4));
+        expectStrata(
+            blockOf(kernel, uint(random()), uint(random() % (1u << 21)), uint(random() % 999) * 4));
     }
 }
 
 TEST(SobolNet, noFourDimensionsCouldBeNetsInAllPairs)
 {
-    // A dimension of a digital net: the first digit is one of 7 sums of the index's digits, the first two
-    // digits fix a line of 3 such sums. Quarters of one and halves of another are 8 cells with a point
-    // each just where the other's first digit is not on the one's line.
+    // A dimension of a digital net: the first digit is one of 7 sums of the index's digits, the
+    // first two digits fix a line of 3 such sums. Quarters of one and halves of another are 8 cells
+    // with a point each just where the other's first digit is not on the one's line.
     struct Dimension {
         uint first;
         std::set<uint> line;
@@ -147,7 +148,8 @@ TEST(SobolNet, noFourDimensionsCouldBeNetsInAllPairs)
             for (const Dimension& c : all) {
                 if (!agree(a, b) || !agree(a, c) || !agree(b, c)) continue;
                 triples++;
-                for (const Dimension& d : all) quadruples += agree(a, d) && agree(b, d) && agree(c, d);
+                for (const Dimension& d : all)
+                    quadruples += agree(a, d) && agree(b, d) && agree(c, d);
             }
         }
     }
@@ -183,7 +185,8 @@ TEST(SobolShuffle, takesAnyTwoSamplesToAnyTwoPointsAlikeOften)
             std::set<std::pair<uint, uint>> pairs;
             for (uint factor = 1; factor < 8; factor++) {
                 for (uint offset = 0; offset < 8; offset++) {
-                    pairs.emplace(kernel.shuffled8(a, factor, offset), kernel.shuffled8(b, factor, offset));
+                    pairs.emplace(kernel.shuffled8(a, factor, offset),
+                                  kernel.shuffled8(b, factor, offset));
                 }
             }
             EXPECT_EQ(pairs.size(), 56u);
@@ -200,7 +203,8 @@ TEST(Sobol, isUniformAlongPixelsBlocksAndRows)
     constexpr int N = 1 << 17;
     for (int axis = 0; axis < 3; axis++) {
         for (uint inBlock : {0u, 5u}) {
-            int counts[4][256] = {}, low[4][256] = {};  // of the upper bits, and the lowest that floats have
+            int counts[4][256] = {},
+                low[4][256] = {};  // of the upper bits, and the lowest that floats have
             for (uint i = 0; i < N; i++) {
                 const uvec4 bits = axis == 0   ? kernel.randomBits4(i, 24 + inBlock, 4)
                                    : axis == 1 ? kernel.randomBits4(12345, 8 * i + inBlock, 4)
@@ -228,30 +232,35 @@ vec4 meanOf(const Block& points)
     return sum / 8.0f;
 }
 
-TEST(Sobol, hasNoCorrelationBetweenPixelsBlocksRowsAndSeeds)
+TEST(Sobol, hasNoCorrelationBetweenPixelsBlocksRowsSeedsAndSamplers)
 {
     Kernel kernel = sobolKernel();
     Kernel reseeded = sobolKernel(2);
+    Kernel independent = sobolKernel();
+    independent.frame.samplerKind = SAMPLER_INDEPENDENT;
     constexpr int N = 1 << 16;
-    // Samples of other blocks: variance 1/12. Means of blocks: of 8 strata, each of variance 1 / (12 64).
+    // Samples of other blocks: variance 1/12. Means of blocks: of 8 strata, each of variance 1 /
+    // (12 64).
     const double ofMean = 1.0 / (12 * 64 * 8);
     const double limit = 4.5 / (12 * std::sqrt(double(N)));
     const double limitOfMeans = 4.5 * ofMean / std::sqrt(double(N));
-    double samples[5] = {}, means[5] = {};
+    double samples[6] = {}, means[6] = {};
     for (uint i = 0; i < N; i++) {
         const uint block = i % 7;
         const Block here = blockOf(kernel, i, block, 4);
-        const Block others[] = {blockOf(kernel, i + 1, block, 4), blockOf(kernel, i, block + 1, 4),
-                                blockOf(kernel, i, block, 8), blockOf(kernel, i, block + 1, 8),
-                                blockOf(reseeded, i, block, 4)};
-        for (int k = 0; k < 5; k++) {
+        const Block others[] = {
+            blockOf(kernel, i + 1, block, 4), blockOf(kernel, i, block + 1, 4),
+            blockOf(kernel, i, block, 8),     blockOf(kernel, i, block + 1, 8),
+            blockOf(reseeded, i, block, 4),   blockOf(independent, i, block, 4)};
+        for (int k = 0; k < 6; k++) {
             samples[k] += (here[3].x - 0.5) * (others[k][3].x - 0.5);
             means[k] += double(meanOf(here).y) * double(meanOf(others[k]).y);
         }
     }
-    for (int k = 0; k < 5; k++) {
+    for (int k = 0; k < 6; k++) {
         EXPECT_LT(std::abs(samples[k] / N), limit) << k;
-        EXPECT_LT(std::abs(means[k] / N), limitOfMeans) << k;
+        // The mean of independent samples varies 8 times as much.
+        EXPECT_LT(std::abs(means[k] / N), k < 5 ? limitOfMeans : 8 * limitOfMeans) << k;
     }
 }
 
@@ -266,14 +275,15 @@ TEST(Sobol, meansOfBlocksHaveTheVarianceOfStrata)
     }
     const double expected = 1.0 / (12 * 64 * 8);  // of independent samples 64 times that
     // The variance of a variance of N nearly normal numbers is 2 / N of it, squared.
-    for (int c = 0; c < 4; c++) EXPECT_NEAR(squares[c] / N, expected, 4.5 * expected * std::sqrt(2.0 / N));
+    for (int c = 0; c < 4; c++)
+        EXPECT_NEAR(squares[c] / N, expected, 4.5 * expected * std::sqrt(2.0 / N));
 }
 
 TEST(Sobol, rowsGoTogetherLikeRandomPermutations)
 {
-    // The mean over a block of a b, a = u - 1/2 and b = v - 1/2 of two rows. Two samples of a row have
-    // E[a a'] = c with 8/12 + 56 c = 64 times the variance of the mean; so 8/144 + 56 c^2 = 64 times that
-    // of the mean of products. Pairs that stay together in both rows would show in c^2.
+    // The mean over a block of a b, a = u - 1/2 and b = v - 1/2 of two rows. Two samples of a row
+    // have E[a a'] = c with 8/12 + 56 c = 64 times the variance of the mean; so 8/144 + 56 c^2 = 64
+    // times that of the mean of products. Pairs that stay together in both rows would show in c^2.
     Kernel kernel = sobolKernel();
     const double c = (64.0 / (12 * 64 * 8) - 8.0 / 12) / 56;
     const double expected = (8.0 / 144 + 56 * c * c) / 64;
