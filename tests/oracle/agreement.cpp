@@ -23,6 +23,7 @@ const std::vector<Term>& allTerms()
 {
     static const std::vector<Term> terms = [] {
         std::vector<Term> all = materialTerms();
+        for (const Term& term : roughTerms()) all.push_back(term);
         for (const Term& term : lightTerms()) all.push_back(term);
         for (const Term& term : cameraTerms()) all.push_back(term);
         for (const Term& term : instanceTerms()) all.push_back(term);

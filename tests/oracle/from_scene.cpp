@@ -1,5 +1,7 @@
 #include "oracle/from_scene.h"
 
+#include "oracle/textbook_rough.h"
+
 #include <stdexcept>
 #include <utility>
 
@@ -31,6 +33,22 @@ textbook::Material materialOf(const Material& material)
     case MATERIAL_REPORT:
         out.kind = textbook::Material::report;
         break;
+    case MATERIAL_ROUGH_CONDUCTOR:
+        out.kind = textbook::Material::roughConductor;
+        break;
+    case MATERIAL_ROUGH_DIELECTRIC:
+        out.kind = textbook::Material::roughDielectric;
+        break;
+    case MATERIAL_THIN_DIELECTRIC:
+        out.kind = textbook::Material::thinPane;
+        break;
+    case MATERIAL_PLASTIC:
+        out.kind = textbook::Material::plastic;
+        break;
+    case MATERIAL_METALLIC_ROUGHNESS:
+        out.kind = textbook::Material::metallicRoughness;
+        out.transmission = material.transmission;
+        break;
     default:
         throw std::logic_error("a material that the textbook tracer does not know");
     }
@@ -41,6 +59,11 @@ textbook::Material materialOf(const Material& material)
     out.conductorK = vecOf(material.conductorK);
     out.diffuseWeight = material.diffuseWeight;
     out.specularWeight = material.specularWeight;
+    out.alpha = double{material.roughness} * double{material.roughness};
+    out.metallic = material.metallic;
+    const bool coated = out.kind == textbook::Material::plastic ||
+                        out.kind == textbook::Material::metallicRoughness;
+    if (coated) textbook::finishMaterial(out);
     return out;
 }
 

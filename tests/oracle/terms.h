@@ -24,6 +24,7 @@ inline void PrintTo(const Term& term, std::ostream* out)
 }
 
 std::vector<Term> materialTerms();
+std::vector<Term> roughTerms();   ///< rough and layered materials
 std::vector<Term> lightTerms();   ///< lamps, probes
 std::vector<Term> cameraTerms();  ///< cameras, shapes
 std::vector<Term> instanceTerms();

@@ -1,4 +1,5 @@
 #include "oracle/textbook_parts.h"
+#include "oracle/textbook_rough.h"
 
 #include <algorithm>
 #include <cmath>
@@ -133,8 +134,9 @@ Vec lookUp(const Probe& probe, Vec direction)
            texelAt(probe, left + 1, top + 1) * (right * below);
 }
 
-/// Fresnel's reflectance for unpolarised light that goes from index n1 to n2 and meets the surface
-/// at angle thetaI. Complex throughout: beyond the critical angle cos(thetaT) is imaginary and both
+}  // namespace
+
+/// Complex throughout: beyond the critical angle cos(thetaT) is imaginary and both
 /// amplitudes have modulus 1; metals have complex n2. Born and Wolf, "Principles of Optics", 1.5.2.
 double reflectance(double thetaI, std::complex<double> n1, std::complex<double> n2)
 {
@@ -145,6 +147,8 @@ double reflectance(double thetaI, std::complex<double> n1, std::complex<double> 
     std::complex<double> parallel = (n2 * cosI - n1 * cosT) / (n2 * cosI + n1 * cosT);
     return (std::norm(perpendicular) + std::norm(parallel)) / 2;
 }
+
+namespace {
 
 /// One surface point with the normals turned to the side that the ray came from.
 struct Surface {
@@ -231,6 +235,13 @@ private:
         }
         case Material::report:
             return reportMaterial(surface, scatterings, medium);
+        case Material::thinPane:
+            return throughPane(surface, scatterings, medium);
+        case Material::roughConductor:
+        case Material::roughDielectric:
+        case Material::plastic:
+        case Material::metallicRoughness:
+            return rough(surface, scatterings, medium);
         }
         return {};
     }
@@ -250,27 +261,78 @@ private:
                reflectOrRefract(surface, medium, beyond, {1, 1, 1}, scatterings, medium) * weight;
     }
 
+    /// A pane of glass with light going to and fro between its faces until it leaves.
+    Vec throughPane(const Surface& surface, int scatterings, double medium)
+    {
+        const double r = reflectance(angleOfIncidence(surface), 1, surface.material->eta);
+        if (uniform() < r) return reflection(surface, scatterings, medium);
+        for (;;) {
+            if (uniform() >= r) {
+                return surface.material->baseColor *
+                       radiance({surface.point, surface.from}, scatterings, medium);
+            }
+            if (uniform() >= r) return reflection(surface, scatterings, medium);
+        }
+    }
+
+    Vec rough(const Surface& surface, int scatterings, double medium)
+    {
+        const Material& material = *surface.material;
+        const double here = surface.fromFront ? 1 : material.eta;
+        const bool glass = material.kind == Material::roughDielectric;
+        const RoughSurface s = {&material, mirrorNormal(surface), -surface.from,
+                                glass ? here : 1,
+                                glass ? material.eta / here : material.eta};
+        Vec sum;
+        for (const Light& light : world_.lights) {
+            const Arrival arrival = arrivalOf(light, surface.point);
+            const double cosine = dot(arrival.toLight, s.normal);
+            if (cosine * dot(arrival.toLight, surface.geometric) <= 0) continue;
+            if (isShadowed(surface.point, arrival)) continue;
+            sum = sum + roughBsdf(s, arrival.toLight) * arrival.irradiance * std::abs(cosine);
+        }
+        const Scattering go = roughSample(s, [this] { return uniform(); });
+        if (go.lost || dot(go.out, s.normal) * dot(go.out, surface.geometric) <= 0) return sum;
+        return sum + go.weight * radiance({surface.point, go.out}, scatterings, medium);
+    }
+
+    /// Light of a lamp on a surface that faces it.
+    struct Arrival {
+        Vec toLight;
+        double distance;
+        Vec irradiance;
+    };
+
+    static Arrival arrivalOf(const Light& light, Vec point)
+    {
+        if (light.kind == Light::directional) return {-light.direction, INFINITE, light.strength};
+        const Vec way = light.position - point;
+        const double distance = length(way);
+        Arrival arrival = {normalized(way), distance, light.strength * (1 / (distance * distance))};
+        if (light.kind == Light::spot) {
+            double range = light.cosInner - light.cosOuter;
+            double beyondOuter = dot(-arrival.toLight, light.direction) - light.cosOuter;
+            double s = std::clamp(beyondOuter / range, 0.0, 1.0);
+            arrival.irradiance = arrival.irradiance * (s * s * (3 - 2 * s));
+        }
+        return arrival;
+    }
+
+    bool isShadowed(Vec point, const Arrival& arrival) const
+    {
+        return closestHit(world_, {point, arrival.toLight}).t < arrival.distance - TINY;
+    }
+
     /// Light of all lamps that reaches a diffuse surface and leaves it towards the path.
     Vec directLight(const Surface& surface, double share)
     {
         Vec sum;
         for (const Light& light : world_.lights) {
-            Vec way = light.kind == Light::directional ? -light.direction
-                                                       : light.position - surface.point;
-            double distance = light.kind == Light::directional ? INFINITE : length(way);
-            Vec toLight = normalized(way);
-            double cosine = dot(toLight, surface.shading);
-            if (cosine <= 0 || dot(toLight, surface.geometric) <= 0) continue;
-            Vec irradiance = light.strength * cosine;
-            if (light.kind != Light::directional)
-                irradiance = irradiance * (1 / (distance * distance));
-            if (light.kind == Light::spot) {
-                double range = light.cosInner - light.cosOuter;
-                double beyondOuter = dot(-toLight, light.direction) - light.cosOuter;
-                double s = std::clamp(beyondOuter / range, 0.0, 1.0);
-                irradiance = irradiance * (s * s * (3 - 2 * s));
-            }
-            if (closestHit(world_, {surface.point, toLight}).t < distance - TINY) continue;
+            const Arrival arrival = arrivalOf(light, surface.point);
+            double cosine = dot(arrival.toLight, surface.shading);
+            if (cosine <= 0 || dot(arrival.toLight, surface.geometric) <= 0) continue;
+            if (isShadowed(surface.point, arrival)) continue;
+            Vec irradiance = arrival.irradiance * cosine;
             sum = sum + surface.material->baseColor * irradiance * (share / pi);
         }
         return sum;

@@ -15,7 +15,18 @@ struct Vec {
 
 /// Colours are linear Rec. 709; lengths in metres, angles in radians.
 struct Material {
-    enum Kind { lambert, mirror, dielectric, conductor, report };
+    enum Kind {
+        lambert,
+        mirror,
+        dielectric,
+        conductor,
+        report,
+        roughConductor,
+        roughDielectric,
+        thinPane,
+        plastic,
+        metallicRoughness
+    };
     Kind kind = lambert;
     Vec baseColor;     ///< reflectance; of a dielectric the tint of what it transmits
     Vec emission;      ///< radiance on both sides
@@ -24,6 +35,10 @@ struct Material {
     Vec conductorK;
     double diffuseWeight = 0;  ///< of the report's material
     double specularWeight = 0;
+    double alpha = 0;  ///< width of GGX
+    double metallic = 0;
+    double transmission = 0;  ///< of metallicRoughness: share of its base that is a thin wall
+    double entering = 1;      ///< share of even light that enters the coat: finishMaterial sets it
 };
 
 /// Seen counter-clockwise from the front.

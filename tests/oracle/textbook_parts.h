@@ -4,6 +4,7 @@
 #include "oracle/textbook.h"
 
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -64,5 +65,9 @@ struct Hit {
 };
 
 Hit closestHit(const World& world, const Ray& ray);
+
+/// Fresnel's reflectance for unpolarised light that goes from index n1 to n2 and meets the surface
+/// at angle thetaI.
+double reflectance(double thetaI, std::complex<double> n1, std::complex<double> n2);
 
 }  // namespace textbook
