@@ -46,6 +46,7 @@ struct LightKernel : Kernel<> {
         const vec3 org = offsetOrigin(isect, wi);
         Traversal hit = beginTraversal(RAY_INFINITY);
         stepsLeft = 0xffffffffu;
+        faults = 0;
         traverse(org, wi, false, hit);
         if (hit.slot == NO_HIT) {
             const vec3 d = toProbe(frame.probe, wi);
