@@ -47,7 +47,7 @@ Film filmBy(Scene scene, uint32_t lightSampling, uint32_t spp)
 
 TEST(LightStrategies, haveTheSameMean)
 {
-    constexpr uint32_t SIZE = 24, SPP = 512;
+    constexpr uint32_t SIZE = 24, SPP = 256;
     double worst = 0;
     for (const LightScene& lit : lightScenes(SIZE)) {
         std::vector<Statistics> found;
@@ -68,8 +68,8 @@ TEST(LightStrategies, haveTheSameMean)
     EXPECT_GT(worst, 0.1) << "as if the ways were one";
 }
 
-/// A floor from above, on which a bright panel stands upright along the top of the picture: scattered rays
-/// find it more easily close to it, shadow rays farther away.
+/// A floor from above, on which a bright panel stands upright along the top of the picture:
+/// scattered rays find it more easily close to it, shadow rays farther away.
 Scene panelOnFloor(uint32_t size)
 {
     Scene scene = emptyScene(size, size, 1);
@@ -100,6 +100,64 @@ TEST(LightStrategies, togetherAreLessNoisyThanEither)
         const double lights = variance(LIGHTS_ONLY, top, top + 6);
         const double bsdf = variance(LIGHTS_BSDF_ONLY, top, top + 6);
         EXPECT_LT(variance(LIGHTS_MIS, top, top + 6), 1.1 * std::min(lights, bsdf))
+            << top << ": " << lights << " " << bsdf;
+    }
+}
+
+/// Veach 1997, Fig. 9.2: four plates of metal, rougher from one to the next, show four spheres of
+/// equal power and very different size.
+Scene veachScene(uint32_t size)
+{
+    Scene scene = emptyScene(size, size, 1);
+    addMaterialOf(scene, MATERIAL_LAMBERT, vec3(0.2f));
+    addLevel(scene, -4.2, 10);
+    struct {
+        double lowY, lowZ, highY, highZ;
+        float alpha;
+    } const plates[] = {{-2.70651, 0.25609, -2.08375, -0.526323, 0.005f},
+                        {-3.28825, 1.36972, -2.83856, 0.476536, 0.02f},
+                        {-3.73096, 2.70046, -3.43378, 1.74564, 0.05f},
+                        {-3.99615, 4.0667, -3.82069, 3.08221, 0.1f}};
+    for (const auto& plate : plates) {
+        Material& metal = addMaterialOf(scene, MATERIAL_ROUGH_CONDUCTOR, vec3(1));
+        metal.roughness = std::sqrt(plate.alpha);
+        metal.conductorEta = vec3(0.2f, 0.92f, 1.1f);
+        metal.conductorK = vec3(3.9f, 2.45f, 2.14f);
+        addRectangle(scene, {-4, plate.lowY, plate.lowZ}, {8, 0, 0},
+                     {0, plate.highY - plate.lowY, plate.highZ - plate.lowZ});
+    }
+    const float radii[] = {0.0333333f, 0.1f, 0.3f, 0.9f};
+    for (int i = 0; i < 4; i++) {
+        addMaterialOf(scene, MATERIAL_LAMBERT, vec3(0)).emission = vec3(1 / (radii[i] * radii[i]));
+        addSphere(scene, {-3.75f + 2.5f * float(i), 0, 0}, radii[i]);
+    }
+    lookFrom(scene, {0, 2, 15}, {0, -2, 2.5}, 34);
+    return scene;
+}
+
+TEST(LightStrategies, togetherAreLessNoisyThanEitherOnVeachsScene)
+{
+    constexpr uint32_t SIZE = 64, SPP = 256;
+    const Scene scene = veachScene(SIZE);
+    std::vector<Film> films;
+    for (uint32_t way : {LIGHTS_MIS, LIGHTS_ONLY, LIGHTS_BSDF_ONLY}) {
+        films.push_back(filmBy(scene, way, SPP));
+        EXPECT_EQ(films[way].counters.badSamples, 0u);
+    }
+    auto variance = [&](uint32_t way, size_t top, size_t bottom) {
+        return statisticsOf(films[way], SIZE, top, bottom).variance;
+    };
+    // Above, the spheres themselves are seen: no way of sampling matters there.
+    constexpr size_t PLATES = 24;
+    const double all = variance(LIGHTS_MIS, PLATES, SIZE);
+    RecordProperty("lights over mis", std::to_string(variance(LIGHTS_ONLY, PLATES, SIZE) / all));
+    RecordProperty("bsdf over mis", std::to_string(variance(LIGHTS_BSDF_ONLY, PLATES, SIZE) / all));
+    EXPECT_LT(all, variance(LIGHTS_ONLY, PLATES, SIZE) / 2);
+    EXPECT_LT(all, variance(LIGHTS_BSDF_ONLY, PLATES, SIZE) / 2);
+    for (size_t top = PLATES; top < SIZE; top += 4) {
+        const double lights = variance(LIGHTS_ONLY, top, top + 4);
+        const double bsdf = variance(LIGHTS_BSDF_ONLY, top, top + 4);
+        EXPECT_LT(variance(LIGHTS_MIS, top, top + 4), 1.1 * std::min(lights, bsdf))
             << top << ": " << lights << " " << bsdf;
     }
 }
