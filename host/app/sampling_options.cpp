@@ -47,13 +47,27 @@ void addSamplingOptions(CLI::App& command, SceneOptions& scene)
                         "the scene's, else off"))
         ->type_name("X")
         ->group("Picture");
+    auto setLights = [&scene](const std::string& text) {
+        scene.lightSampling = static_cast<uint32_t>(
+            parseChoice("--light-sampling", text, {LIGHT_SAMPLINGS.begin(), LIGHT_SAMPLINGS.end()}));
+    };
+    command
+        .add_option_function<std::string>(
+            "--light-sampling", setLights,
+            withDefault("how paths find shapes that shine and the environment: mis\n"
+                        "(both ways), lights (shadow rays alone) or bsdf (scattered\n"
+                        "rays alone); changes no mean (docs/lights.md)",
+                        "the scene's, else mis"))
+        ->type_name("WAY")
+        ->group("Picture");
 }
 
 ImageMetadata describeSampling(const RenderSettings& settings)
 {
     ImageMetadata entries = {
         {"sahl.sampler", samplerName(settings.samplerKind)},
-        {"sahl.varianceOver", settings.samplerKind == SAMPLER_SOBOL ? "blocks" : "samples"}};
+        {"sahl.varianceOver", settings.samplerKind == SAMPLER_SOBOL ? "blocks" : "samples"},
+        {"sahl.lightSampling", lightSamplingName(settings.lightSampling)}};
     const bool roulette = settings.rouletteDepth != NO_ROULETTE, clamp = settings.clampIndirect > 0;
     // Always there, so that files with and without can be told apart.
     entries["sahl.rouletteDepth"] = roulette ? std::to_string(settings.rouletteDepth) : "off";

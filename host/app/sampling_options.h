@@ -11,7 +11,7 @@
 
 namespace sahl {
 
-/// --sampler, --roulette-depth, --clamp-indirect, in the group "Picture".
+/// --sampler, --roulette-depth, --clamp-indirect, --light-sampling, in the group "Picture".
 void addSamplingOptions(CLI::App& command, SceneOptions& scene);
 
 /// What the metadata of a picture say about them.

@@ -69,8 +69,8 @@ double sumOf(const std::vector<double>& weights)
     return sum;
 }
 
-/// Adds shapes that shine to the lights and their weights.
-void addShapes(const DeviceScene& scene, LightTable& table, std::vector<double>& weights)
+/// Adds shapes that shine to the lights and their weights. Returns whether they are chosen among.
+bool addShapes(const DeviceScene& scene, LightTable& table, std::vector<double>& weights)
 {
     const std::optional<std::vector<ShapeLight>> shapes = shapeLightsOf(scene, MAX_SHAPE_LIGHTS);
     if (!shapes) {
@@ -78,7 +78,7 @@ void addShapes(const DeviceScene& scene, LightTable& table, std::vector<double>&
             "more than {} shapes shine: light sampling leaves all of them out, and paths find "
             "them by chance alone",
             MAX_SHAPE_LIGHTS));
-        return;
+        return false;
     }
     for (const ShapeLight& shape : *shapes) {
         Light light = {};
@@ -88,6 +88,7 @@ void addShapes(const DeviceScene& scene, LightTable& table, std::vector<double>&
         table.lights.push_back(light);
         weights.push_back(shape.weight);
     }
+    return true;
 }
 
 /// Chances of the lights, `share` for all of them together.
@@ -102,7 +103,6 @@ void chooseByWeight(const std::vector<double>& weights, double share, LightTable
     }
     table.entries = makeAliasTable(masses);
     table.choiceCount = static_cast<uint>(masses.size());
-    table.lightPerPower = static_cast<float>(share / sum);
 }
 
 /// What the probe's chance is, given its power and the lights' in the same unit: a multiple of
@@ -136,7 +136,7 @@ LightTable makeLightTable(const DeviceScene& scene)
         table.lights.push_back(light);
         weights.push_back(weightOf(light, radius2));
     }
-    if (!bsdfOnly) addShapes(scene, table, weights);
+    const bool shapesAreSampled = !bsdfOnly && addShapes(scene, table, weights);
 
     const std::vector<double> powers = powersOfProbe(scene);
     const bool probeShines = sumOf(powers) > 0;
@@ -145,6 +145,8 @@ LightTable makeLightTable(const DeviceScene& scene)
     const double power = probeShines && !bsdfOnly ? sumOf(powers) * radius2 / 2 : 0;
     const double share = probeShare(power, sumOf(weights));
     chooseByWeight(weights, 1 - share, table);
+    if (shapesAreSampled && table.choiceCount > 0)
+        table.lightPerPower = static_cast<float>((1 - share) / sumOf(weights));
     if (share > 0) {
         table.probeChance = static_cast<float>(share);
         const std::vector<AliasEntry> entries = makeAliasTable(table.texelMasses);

@@ -17,8 +17,9 @@ struct LightTable {
     std::vector<uint64_t>
         texelMasses;          ///< of the probe, see writeTexelWeights(); empty: it is not sampled
     uint choiceCount = 0;     ///< lights that entries are for
-    float lightPerPower = 0;  ///< of shapes: chance to be chosen per luminance and area [sr W^-1]
-    float probeChance = 0;    ///< that the probe is taken, and no light
+    float lightPerPower = 0;  ///< of shapes: chance to be chosen per luminance and area [sr W^-1];
+                              ///< 0: none of them is sampled
+    float probeChance = 0;  ///< that the probe is taken, and no light
 };
 
 /// More shapes that shine are not sampled: paths may still run into them.

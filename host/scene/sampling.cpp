@@ -11,6 +11,13 @@ const char* samplerName(uint32_t samplerKind)
     return std::data(SAMPLERS)[samplerKind];
 }
 
+static_assert(LIGHTS_MIS == 0 && LIGHTS_ONLY == 1 && LIGHTS_BSDF_ONLY == 2);
+
+const char* lightSamplingName(uint32_t lightSampling)
+{
+    return std::data(LIGHT_SAMPLINGS)[lightSampling];
+}
+
 void readSampling(const JsonObject& integrator, RenderSettings& settings)
 {
     const std::string name = integrator.choice("sampler", SAMPLERS);
@@ -23,6 +30,9 @@ void readSampling(const JsonObject& integrator, RenderSettings& settings)
     if (integrator.has("clampIndirect"))
         settings.clampIndirect =
             static_cast<float>(integrator.number("clampIndirect", 0, CLAMP_RANGE));
+    const std::string lights = integrator.choice("lightSampling", LIGHT_SAMPLINGS);
+    settings.lightSampling =
+        static_cast<uint32_t>(std::ranges::find(LIGHT_SAMPLINGS, lights) - LIGHT_SAMPLINGS.begin());
 }
 
 void applySamplingOptions(RenderSettings& settings, const SceneOptions& options)
@@ -30,6 +40,7 @@ void applySamplingOptions(RenderSettings& settings, const SceneOptions& options)
     settings.samplerKind = options.samplerKind.value_or(settings.samplerKind);
     settings.rouletteDepth = options.rouletteDepth.value_or(settings.rouletteDepth);
     settings.clampIndirect = options.clampIndirect.value_or(settings.clampIndirect);
+    settings.lightSampling = options.lightSampling.value_or(settings.lightSampling);
 }
 
 }  // namespace sahl

@@ -1,5 +1,5 @@
 // How samples are drawn and weighed, as a scene file and the command line ask for it: the sampler,
-// Russian roulette, the clamp of indirect light.
+// Russian roulette, the clamp of indirect light, how lights are looked for.
 #pragma once
 
 #include "scene/json_fields.h"
@@ -16,7 +16,14 @@ constexpr std::initializer_list<const char*> SAMPLERS = {"independent", "sobol"}
 /// "independent" or "sobol".
 const char* samplerName(uint32_t samplerKind);
 
-/// Reads "sampler", "rouletteDepth" and "clampIndirect" of the integrator. What is absent is off.
+/// In the order of LIGHTS_*.
+constexpr std::initializer_list<const char*> LIGHT_SAMPLINGS = {"mis", "lights", "bsdf"};
+
+/// "mis", "lights" or "bsdf".
+const char* lightSamplingName(uint32_t lightSampling);
+
+/// Reads "sampler", "rouletteDepth", "clampIndirect" and "lightSampling" of the integrator. What is absent is
+/// off; of the last it is "mis".
 void readSampling(const JsonObject& integrator, RenderSettings& settings);
 
 /// Takes over what the command line says.

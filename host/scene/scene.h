@@ -123,6 +123,7 @@ struct SceneOptions {
     std::optional<uint32_t> integrator;  ///< one of INTEGRATOR_*
     std::optional<uint32_t> samplerKind, rouletteDepth;  ///< one of SAMPLER_*; NO_ROULETTE: off
     std::optional<float> clampIndirect;                  ///< 0: off
+    std::optional<uint32_t> lightSampling;               ///< one of LIGHTS_*
     std::optional<uint32_t> terms;       ///< of phong: bits of SHADING_TERMS
     std::optional<bool> shadows;         ///< of phong
     std::optional<bool> flatNormals;     ///< geometric normals in place of interpolated ones

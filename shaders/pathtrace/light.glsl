@@ -61,46 +61,20 @@ LightSample withRadiance(vec3 wi, float distance, vec3 radiance, float pdf)
     return ls;
 }
 
-/// The emission of a shape that has textures, where light sampling has found it: none in a hole.
-///   u1, u2  as the shape's sampling had them
-vec3 emissionFound(Light light, Primitive shape, Material material, vec3 org, ShapeSample ss, float u1, float u2)
-{
-    vec2 uv;
-    if (light.type == LIGHT_SPHERE) {
-        ObjectRay ray = objectRayOf(light.instance, org, ss.wi);
-        uv = sphereUv(unit((ray.org + ray.dir * ss.distance) - shape.p0));
-    } else {
-        float b2 = root(u1) * u2;
-        float b1 = root(u1) - b2;
-        if (HAS_CUTOUTS) {
-            uint painted = NO_MATERIAL;
-            if (light.instance != NO_INSTANCE) painted = loadInstance(light.instance).material;
-            if (isCutOut(shape, painted, b1, b2)) return vec3(0.0f);
-        }
-        uv = triangleUv(shape, b1, b2);
-    }
-    return texturedMaterial(material, uv.x, uv.y).emission;
-}
-
 LightSample sampleShapeLight(Light light, SurfaceInteraction isect, float u1, float u2)
 {
     Primitive shape = loadPrimitive(light.slot);
-    uint painted = shape.material;
-    if (HAS_INSTANCES && light.instance != NO_INSTANCE) {
-        uint material = loadInstance(light.instance).material;
-        if (material != NO_MATERIAL) painted = material;
-    }
-    Material material = loadMaterial(painted);
-    float perArea = flushed(luminance(meanEmission(material, painted)) * frame.lightPerPower);
+    uint ofInstance = NO_MATERIAL;
+    if (HAS_INSTANCES && light.instance != NO_INSTANCE) ofInstance = loadInstance(light.instance).material;
+    Material material = loadMaterial(ofInstance != NO_MATERIAL ? ofInstance : shape.material);
+    float perArea = lightPerArea(material);
     ShapeSample ss;
     if (light.type == LIGHT_SPHERE) {
         ss = sampleSphereLight(perArea, shape, light.instance, isect, u1, u2);
     } else {
-        ss = sampleTriangleLight(perArea, shape, light.instance, isect, u1, u2);
+        ss = sampleTriangleLight(perArea, shape, light.instance, ofInstance, isect, u1, u2);
     }
-    vec3 emission = material.emission;
-    if (HAS_TEXTURES) emission = emissionFound(light, shape, material, isect.p, ss, u1, u2);
-    return withRadiance(ss.wi, ss.distance, emission, ss.pdf);
+    return withRadiance(ss.wi, ss.distance, emittedAt(material, ss.u, ss.v), ss.pdf);
 }
 
 LightSample sampleProbeLight(uint bits, uint finer, float u1, float u2)

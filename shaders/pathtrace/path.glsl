@@ -90,14 +90,12 @@ uint sampleNextRay(Material material, SurfaceInteraction isect, uint dimension, 
 /// Light that a path sees where its ray meets nothing.
 void seeEnvironment(INOUT(PathState) path)
 {
-    if (path.depth == 0u) {
-        gather(path.beta * evalProbe(frame.background, path.dir), path.depth, path);
-    } else {
-        vec3 d = toProbe(frame.probe, path.dir);
-        vec4 texel = lookUpProbe(frame.probe, d);
-        float weight = weightOfScattering(path.pdf, pdfProbe(d, texel.w));
-        gather(path.beta * vec3(texel) * weight, path.depth, path);
-    }
+    Probe probe = frame.probe;
+    if (path.depth == 0u) probe = frame.background;
+    vec3 d = toProbe(probe, path.dir);
+    vec4 texel = lookUpProbe(probe, d);
+    float weight = weightOfScattering(path.pdf, pdfProbe(d, texel.w));
+    gather(path.beta * vec3(texel) * weight, path.depth, path);
     path.phase = PHASE_ENDED;
 }
 
@@ -107,8 +105,7 @@ void seeEmission(SurfaceInteraction isect, Material material, Traversal hit, INO
     if (!(maxComponent(material.emission) > 0.0f)) return;
     float weight = 1.0f;
     if (path.pdf > 0.0f) {
-        float pdfLight = pdfShapeLight(hit, isect, meanEmission(material, isect.material), path.org, path.dir);
-        weight = weightOfScattering(path.pdf, pdfLight);
+        weight = weightOfScattering(path.pdf, pdfShapeLight(hit, isect, path.org, path.dir));
     }
     gather(path.beta * material.emission * weight, path.depth, path);
 }

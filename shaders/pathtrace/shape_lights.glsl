@@ -1,9 +1,9 @@
 // Triangles and spheres that shine: points on them to look for, and the density of finding them so.
 //
-// A light's weight is the luminance of its emission times its area in the world, so all shapes are sampled
-// with a density per area that follows from the emission alone: `perArea`, luminance times
-// frame.lightPerPower [m^-2]. Where a path runs into a shape, the density is known without asking which
-// light that is.
+// A light's weight is the luminance of its emission, where that is a picture of the picture's mean, times
+// its area in the world. So all shapes are sampled with a density per area that follows from their material
+// alone: `perArea`, luminance times frame.lightPerPower [m^-2]. Where a path runs into a shape, the density
+// is known without asking which light that is.
 
 // A point on a light, as seen from the origin of a ray.
 struct ShapeSample
@@ -11,6 +11,8 @@ struct ShapeSample
     vec3 wi;         // unit direction to it
     float distance;  // at which a ray for it must end, lest the light itself block it [m]; 0: not seen
     float pdf;       // density of wi [1/sr]
+    float u;         // texture coordinates of the point
+    float v;
 };
 
 // A ray in the space of the primitive that it may meet.
@@ -56,8 +58,8 @@ bool isFarFrom(Primitive sphere, vec3 fromCentre)
     return dot3(fromCentre, fromCentre) > 1.0001f * (sphere.p1.x * sphere.p1.x);
 }
 
-/// Density of a direction within the cone that a sphere fills, times its radius' square over its area's
-/// share: perArea 4 pi r^2 / (2 pi (1 - cos)), where r cancels [1/sr].
+/// Density of a direction within the cone that a sphere fills [1/sr]: the chance of the sphere, perArea 4 pi
+/// r^2, over the solid angle of the cone, 2 pi (1 - cosine). As r^2 = d^2 (1 - cosine^2), r cancels.
 ///   d2      squared distance of its centre
 ///   cosine  of half the cone's angle
 float pdfSphereCone(float perArea, float d2, float cosine)
@@ -70,10 +72,12 @@ float sphereConeCosine(Primitive sphere, float d2)
     return root(max2(0.0f, 1.0f - quotient(sphere.p1.x * sphere.p1.x, d2)));
 }
 
-/// Density of the direction of a ray that meets a sphere first at distance t, of points sampled all over
-/// the sphere, those on its far side included [1/sr]. For an ellipsoid, which an instance makes of a
-/// sphere, the points are uniform on the sphere, and its weight is the sphere's area times the stretch of
-/// areas on average, as the square root of the mean square of what ray.stretch is the inverse of.
+/// Density of the direction of a ray that meets a sphere first at distance t, if points are sampled all over
+/// the sphere, those on its far side included [1/sr].
+///
+/// An instance may make an ellipsoid of the sphere. Points are uniform on the sphere still, which the map
+/// p = M q spreads over areas |det M| |M^-T n| times as large. Its weight is taken to be that of an area of
+/// 4 pi r^2 |det M| s with s, the ray's stretch, the root of the mean square of |M^-T n|: so |det M| cancels.
 float pdfSphereSurface(float perArea, Primitive sphere, ObjectRay ray, float t)
 {
     vec3 f = ray.org - sphere.p0;
@@ -98,11 +102,21 @@ float pdfSphereLight(float perArea, Primitive sphere, uint instance, vec3 org, v
     return pdfSphereSurface(perArea, sphere, objectRayOf(instance, org, dir), t);
 }
 
-/// Density with which light sampling takes the direction of a ray that met a shape [1/sr].
-///   radiance  emission of its material, on average
-float pdfShapeLight(Traversal hit, SurfaceInteraction isect, vec3 radiance, vec3 org, vec3 dir)
+/// Density per area with which shapes of a material are sampled [m^-2].
+///   material  as it is stored
+float lightPerArea(Material material)
 {
-    float perArea = flushed(luminance(radiance) * frame.lightPerPower);
+    vec3 emission = material.emission;
+    if (HAS_TEXTURES && material.emissionTexture != NO_TEXTURE) {
+        emission = emission * loadTexture(material.emissionTexture - 1u).mean;
+    }
+    return flushed(luminance(emission) * frame.lightPerPower);
+}
+
+/// Density with which light sampling takes the direction of a ray that met a shape [1/sr].
+float pdfShapeLight(Traversal hit, SurfaceInteraction isect, vec3 org, vec3 dir)
+{
+    float perArea = lightPerArea(loadMaterial(isect.material));
     if (!(perArea > 0.0f)) return 0.0f;
     Primitive shape = loadPrimitive(hit.slot);
     if (shape.shape == SHAPE_SPHERE) {
@@ -117,7 +131,7 @@ float shadowDistance(float met) { return met * 0.999999046f; }
 
 ShapeSample nothingSeen()
 {
-    ShapeSample ss = {vec3(0.0f), 0.0f, 0.0f};
+    ShapeSample ss = {vec3(0.0f), 0.0f, 0.0f, 0.0f, 0.0f};
     return ss;
 }
 
@@ -148,18 +162,25 @@ Primitive placedTriangle(Primitive triangle, uint instance)
 }
 
 /// A point of a triangle, all as likely.
-///   u1, u2  uniform in [0,1)
-ShapeSample sampleTriangleLight(float perArea, Primitive triangle, uint instance, SurfaceInteraction isect,
-                                float u1, float u2)
+///   material  of the instance, or NO_MATERIAL
+///   u1, u2    uniform in [0,1)
+ShapeSample sampleTriangleLight(float perArea, Primitive triangle, uint instance, uint material,
+                                SurfaceInteraction isect, float u1, float u2)
 {
     Primitive placed = placedTriangle(triangle, instance);
     float side = root(u1);
     float b2 = side * u2;
-    vec3 q = (placed.p0 * (1.0f - side) + placed.p1 * (side - b2)) + placed.p2 * b2;
+    float b1 = side - b2;
+    vec3 q = (placed.p0 * (1.0f - side) + placed.p1 * b1) + placed.p2 * b2;
     vec3 org;
     ShapeSample ss = nothingSeen();
     float distance = aimAtPoint(isect, q, org, ss.wi);
-    if (!(distance > 0.0f)) return ss;
+    if (!(distance > 0.0f) || (HAS_CUTOUTS && isCutOut(triangle, material, b1, b2))) return ss;
+    if (HAS_TEXTURES) {
+        vec2 uv = triangleUv(triangle, b1, b2);
+        ss.u = uv.x;
+        ss.v = uv.y;
+    }
     float cosine = absolute(dot3(triangleNormal(placed, vec3(0.0f)), ss.wi));
     ss.pdf = flushed(perArea * areaToSolidAngle(distance, cosine));
 
@@ -168,6 +189,15 @@ ShapeSample sampleTriangleLight(float perArea, Primitive triangle, uint instance
     float met = planeDistance(ray.org, ray.dir, triangle);
     ss.distance = shadowDistance(met > 0.0f ? min2(met, distance) : distance);
     return ss;
+}
+
+/// Texture coordinates of the point of a sphere that a ray meets at distance t.
+void lookUpSphere(Primitive sphere, ObjectRay ray, float t, INOUT(ShapeSample) ss)
+{
+    if (!HAS_TEXTURES) return;
+    vec2 uv = sphereUv(unit((ray.org + ray.dir * t) - sphere.p0));
+    ss.u = uv.x;
+    ss.v = uv.y;
 }
 
 /// A direction within the cone that a sphere fills, all as likely.
@@ -196,6 +226,7 @@ ShapeSample sampleSphereCone(float perArea, Primitive sphere, SurfaceInteraction
     // By rounding a ray may pass the rim: then nothing of the sphere is in its way
     if (!meets) met = dot3(sphere.p0 - org, ss.wi);
     if (!(met > 0.0f)) return ss;
+    lookUpSphere(sphere, objectRayOf(NO_INSTANCE, org, ss.wi), met, ss);
     ss.distance = shadowDistance(met);
     ss.pdf = flushed(pdfSphereLight(perArea, sphere, NO_INSTANCE, org, ss.wi, met));
     return ss;
@@ -220,6 +251,7 @@ ShapeSample sampleSphereSurface(float perArea, Primitive sphere, uint instance, 
     ObjectRay ray = objectRayOf(instance, org, ss.wi);
     float met;
     if (!intersectSphere(ray.org, ray.dir, sphere.p0, sphere.p1.x, met)) return ss;
+    lookUpSphere(sphere, ray, met, ss);
     ss.distance = shadowDistance(met);
     ss.pdf = flushed(pdfSphereLight(perArea, sphere, instance, org, ss.wi, met));
     return ss;

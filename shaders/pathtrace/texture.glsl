@@ -131,13 +131,11 @@ bool isCutOut(Primitive triangle, uint instanceMaterial, float b1, float b2)
     return lookUpAlpha(material.baseColorTexture, uv.x, uv.y) < material.alphaCutoff;
 }
 
-/// The emission of a material on average over its texture: by this lights are chosen.
-///   material  as it is stored or as it is somewhere
-///   index     of the stored one
-vec3 meanEmission(Material material, uint index)
+/// Radiance of a material at (u, v) [W m^-2 sr^-1].
+vec3 emittedAt(Material material, float u, float v)
 {
     if (!HAS_TEXTURES || material.emissionTexture == NO_TEXTURE) return material.emission;
-    return loadMaterial(index).emission * loadTexture(material.emissionTexture - 1u).mean;
+    return flushed3(material.emission * lookUpColor(material.emissionTexture, u, v));
 }
 
 /// The material as it is at (u, v): its numbers times those of its textures.
@@ -146,8 +144,7 @@ Material texturedMaterial(Material material, float u, float v)
     if (!HAS_TEXTURES) return material;
     if (material.baseColorTexture != NO_TEXTURE)
         material.baseColor = material.baseColor * lookUpColor(material.baseColorTexture, u, v);
-    if (material.emissionTexture != NO_TEXTURE)
-        material.emission = flushed3(material.emission * lookUpColor(material.emissionTexture, u, v));
+    material.emission = emittedAt(material, u, v);
     if (material.roughnessTexture != NO_TEXTURE) {
         vec3 share = lookUpColor(material.roughnessTexture, u, v);
         material.roughness = material.roughness * share.y;

@@ -2,6 +2,7 @@
 // on the CPU.
 #include "image/image.h"
 #include "support/device_test.h"
+#include "support/gltf_room.h"
 #include "support/saved_files.h"
 #include "support/source_folder.h"
 
@@ -40,6 +41,7 @@ TEST_F(SavedScenes, ofEveryFeatureRenderToTheSameBits)
     Image stripes = {8, 8, {}};  // the angular map that one of the scenes names
     for (uint32_t i = 0; i < 3 * 64; i++) stripes.rgb.push_back(static_cast<float>(i % 7));
     writeFileAtomically(folder.path / "angular.pfm", encodePfm(stripes));
+    writeFileAtomically(folder.path / "room.glb", gltfRoom());
     const fs::path scenes = sourceFolder() / "tests/scenes";
     for (const auto& entry : fs::directory_iterator(scenes)) {
         SCOPED_TRACE(entry.path().filename().string());

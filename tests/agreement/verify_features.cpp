@@ -4,6 +4,7 @@
 #include "image/image.h"
 #include "render/verify.h"
 #include "support/device_test.h"
+#include "support/gltf_room.h"
 #include "support/render_scenes.h"
 #include "support/scene_files.h"
 #include "support/source_folder.h"
@@ -73,6 +74,7 @@ protected:
     {
         const SceneFolder files;
         writeAngularMap(files.folder.path / "angular.pfm");
+        files.write("room.glb", gltfRoom());
         const std::string name = std::string(GetParam()) + ".json";
         fs::copy_file(testFolder() / "scenes" / name, files.folder.path / name);
         return files.load(name);
@@ -96,7 +98,7 @@ TEST_P(LongVerifySmallScenes, haveNoDifferingBitInExactMath)
 
 constexpr const char* SMALL_SCENES[] = {
     "mirror", "dielectric",  "conductor",  "report_material", "sphere",  "lens",  "orthographic",
-    "spot",   "directional", "background", "emission",        "angular", "phong", "instances"};
+    "spot",   "directional", "background", "emission",        "angular", "phong", "instances", "gltf"};
 
 const auto nameOfScene = [](const auto& tested) { return std::string(tested.param); };
 

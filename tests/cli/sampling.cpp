@@ -91,10 +91,25 @@ TEST_F(Sampling, isReadFromTheSceneAndCanBeSwitchedOff)
         EXPECT_EQ(saved[name], read[name]) << name;
 }
 
+TEST_F(Sampling, lightsAreLookedForAsSceneAndOptionSay)
+{
+    EXPECT_EQ(metadataAfter({})["sahl.lightSampling"], "mis");
+    EXPECT_EQ(metadataAfter({"--light-sampling", "bsdf"})["sahl.lightSampling"], "bsdf");
+    nlohmann::json scene = nlohmann::json::parse(ballScene());
+    scene["integrator"].update({{"lightSampling", "lights"}});
+    writeText(folder / "ball.json", scene.dump());
+    EXPECT_EQ(metadataAfter({})["sahl.lightSampling"], "lights");
+    ASSERT_EQ(sahl({"bvh", "ball.json", "-o", "ball.sahl"}, here()).exitCode, 0);
+    ASSERT_EQ(sahl({"render", "ball.sahl", "--device", "cpu", "-o", "saved.exr"}, here()).exitCode, 0);
+    EXPECT_EQ(describeExr(folder / "saved.exr").metadata["sahl.lightSampling"], "lights");
+}
+
 TEST_F(Sampling, mistakesAreRefusedWithTheReason)
 {
     expectRefused(render({"--sampler", "sobel"}), 2,
                   "--sampler 'sobel' is not known; did you mean sobol?");
+    expectRefused(render({"--light-sampling", "light"}), 2,
+                  "--light-sampling 'light' is not known; did you mean lights?");
     expectRefused(render({"--roulette-depth", "never"}), 2,
                   "--roulette-depth 'never' is not a whole number");
     expectRefused(render({"--clamp-indirect", "0"}), 2, "--clamp-indirect 0 is out of range");

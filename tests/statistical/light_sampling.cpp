@@ -21,7 +21,7 @@ constexpr size_t TESTS = 24;           // at least as many as there are
 
 /// A kernel that has all that light sampling reads.
 struct LightKernel : Kernel<> {
-    explicit LightKernel(const PreparedScene& prepared)
+    explicit LightKernel(const PreparedScene& prepared) : Kernel<>{}
     {
         const DeviceScene scene = prepared.deviceScene();
         nodes = scene.nodes;
@@ -53,7 +53,7 @@ struct LightKernel : Kernel<> {
             return pdfProbe(d, lookUpProbe(frame.probe, d).w);
         }
         const SurfaceInteraction at = interactionAt(hit, org, wi);
-        return pdfShapeLight(hit, at, loadMaterial(at.material).emission, org, wi);
+        return pdfShapeLight(hit, at, org, wi);
     }
 };
 
@@ -272,6 +272,51 @@ TEST(TriangleLight, isSampledByAreaInTheWorldWhereAnInstancePutsIt)
 {
     expectSampledByDensity(placedScene(addTriangle, SKEW), {0.3f, 0, 0.1f},
                            about({0.3, 1, 0.3}, 1.2));
+}
+
+/// Shadow rays to lights of all shapes, from everywhere around and at all angles, also far from the
+/// origin.
+TEST(Lights, areNotInTheirOwnWay)
+{
+    const auto both = [](Scene& scene) {
+        addTriangle(scene);
+        addSphere(scene, {0.1f, -2, 0.3f}, 0.7f);
+    };
+    int seen = 0;
+    for (const vec3& away : {vec3(0), vec3(300, -1000, 70)}) {
+        for (bool isPlaced : {false, true}) {
+            Scene scene = isPlaced ? placedScene(both, SKEW) : shiningScene();
+            if (!isPlaced) both(scene);
+            for (Primitive& shape : scene.primitives) {
+                shape.p0 += away;
+                if (shape.shape == SHAPE_SPHERE) continue;
+                shape.p1 += away;
+                shape.p2 += away;
+            }
+            for (Placement& placement : scene.instances) placement.translation += glm::dvec3(away);
+            const PreparedScene prepared = prepareScene(std::move(scene), BvhBuild::sweep, 1);
+            LightKernel kernel(prepared);
+            for (uint i = 0; i < 100000; i++) {
+                const vec4 u = kernel.random4(2, i, 0);
+                SurfaceInteraction isect =
+                    pointAt(away + (vec3(u) - 0.5f) * (i % 2 == 0 ? 3.0f : 30.0f));
+                isect.pError = 2e-6f * (kernel.maxComponent(kernel.absolute3(isect.p)) + 1);
+                const auto ls = kernel.sampleAt(isect, i);
+                if (!(ls.distance > 0)) continue;
+                Traversal walk = kernel.beginTraversal(ls.distance);
+                kernel.stepsLeft = 0xffffffffu;
+                kernel.traverse(kernel.offsetOrigin(isect, ls.wi), ls.wi, true, walk);
+                if (walk.slot == NO_HIT) {
+                    seen++;
+                    continue;
+                }
+                // One of the two may be in the way of the other, or the sphere in that of its own
+                // inside. A light in its own way would be met at the end of the shadow ray
+                ASSERT_LT(walk.tHit, 0.99 * ls.distance) << isPlaced << " " << i;
+            }
+        }
+    }
+    EXPECT_GT(seen, 300000);
 }
 
 TEST(Lights, areChosenByTheirPower)
