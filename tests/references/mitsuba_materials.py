@@ -60,7 +60,7 @@ class Surface:
 class Maker:
     """Makes surfaces of one scene's file.
       folder    for pictures that have to be written anew
-      beckmann  whether GGX will do for Beckmann's distribution"""
+      beckmann  the largest alpha at which GGX will do for Beckmann's distribution"""
 
     def __init__(self, document, folder, beckmann):
         self.document, self.folder, self.beckmann = document, folder, beckmann
@@ -99,11 +99,12 @@ class Maker:
         return index("int_ior", inside) / index("ext_ior", "air")
 
     def roughness(self, node):
-        if self.document.word(node, "distribution", "beckmann") != "ggx" and not self.beckmann:
-            raise Unsupported("Beckmann's distribution")
+        alpha = self.document.number(node, "alpha", 0.1)
+        if self.document.word(node, "distribution", "beckmann") != "ggx" and alpha > self.beckmann:
+            raise Unsupported(f"Beckmann's distribution (alpha {alpha:g})")
         if any(self.document.child(node, name) is not None for name in ("alpha_u", "alpha_v")):
             raise Unsupported("a roughness that depends on the direction")
-        return math.sqrt(self.document.number(node, "alpha", 0.1))
+        return math.sqrt(alpha)
 
     def _diffuse(self, node):
         child = self.document.child(node, "reflectance")
@@ -181,6 +182,9 @@ class Maker:
     def _roughplastic(self, node):
         surface = self._plastic(node)
         surface.material["roughness"] = self.roughness(node)
+        if self.document.word(node, "nonlinear", "false") != "true":
+            color, eta = self.document.color(node, "diffuse_reflectance", 0.5), surface.material["eta"]
+            surface.material["baseColor"] = linear_base(color, eta, coarse_reflectance(1 / eta))
         return surface
 
 
@@ -203,8 +207,16 @@ def diffuse_reflectance(eta, steps=4096):
     return sum(fresnel(math.sqrt((i + 0.5) / steps), eta) for i in range(steps)) / steps
 
 
-def linear_base(color, eta):
+def coarse_reflectance(eta, steps=64):
+    """The same as their rough plastic finds it, 1.5 % off: by the mean of so many cosines from 0 to 1."""
+    cosines = [i / (steps - 1) for i in range(steps)]
+    return sum(2 * cosine * fresnel(cosine, eta) for cosine in cosines) / steps
+
+
+def linear_base(color, eta, theirs=None):
     """Light in a coat comes back to the base with the probability k each time. Ours adds that up, rho / (1 - k rho);
-    theirs, unless it is told to be nonlinear, takes rho / (1 - k): the rho of ours that gives as much."""
+    theirs, unless it is told to be nonlinear, takes rho / (1 - k): the rho of ours that gives as much.
+      theirs  k as they have it, if it is not the true one"""
     k = diffuse_reflectance(1 / eta)
-    return [rho / (1 - k + k * rho) for rho in color]
+    sent_back = [rho / (1 - (k if theirs is None else theirs)) for rho in color]
+    return [value / (1 + k * value) for value in sent_back]

@@ -15,11 +15,11 @@ INTEGRATORS = ("path", "direct", "ptracer")  # all give the same picture
 class Reader:
     """One file; `scene` is the result.
       folder     for what the scene needs beside it
-      beckmann   whether GGX will do for Beckmann's distribution
+      beckmann   the largest alpha at which GGX will do for Beckmann's distribution
       stand_ins  what Sahl has no like of is left out if it is an emitter, and black if it is a shape;
                  `left_out` names it, in the order of the file"""
 
-    def __init__(self, programs, path, folder, beckmann=False, stand_ins=False):
+    def __init__(self, programs, path, folder, beckmann=0, stand_ins=False):
         self.programs, self.folder, self.stand_ins = programs, folder, stand_ins
         self.document = Document(path, programs.references("mitsuba", "common"))
         self.maker = Maker(self.document, folder, beckmann)

@@ -7,6 +7,7 @@ from mitsuba_xml import Unsupported, numbers
 
 ONE_BOUNCE = ("whitted", "direct_ems", "direct_mats", "direct_mis")
 ALL_BOUNCES = ("path_ems", "path_mats", "path_mis")
+STRATEGIES = {"ems": "lights", "mats": "bsdf", "mis": "mis"}  # of --light-sampling
 ENDLESS = 100  # bounces; a surface of albedo 0.8 reflects 0.8^100 = 2e-10 after that many
 
 
@@ -62,3 +63,8 @@ def material(mesh):
     if emitter is not None:
         made["emission"] = numbers(text(emitter, "radiance"))
     return made
+
+
+def strategy(integrator):
+    """How the integrator finds lamps, as --light-sampling says it."""
+    return STRATEGIES.get(integrator.rpartition("_")[2], "mis")

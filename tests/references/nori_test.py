@@ -28,7 +28,7 @@ class Nori(unittest.TestCase):
         level = 1 - (1 - test.level) ** (1 / len(test.references))
         for i, ((integrator, scene), reference) in enumerate(zip(test.scenes, test.references)):
             with self.subTest(scene=i, integrator=integrator):
-                mean, error = self.mean_luminance(scene, test.samples)
+                mean, error = self.mean_luminance(scene, test.samples, i, nori_scene.strategy(integrator))
                 # Student's distribution of 10^5 degrees of freedom is the normal one.
                 t = (mean - reference) / error if error > 0 else 0 if math.isclose(mean, reference, rel_tol=1e-5) \
                     else math.inf
@@ -36,12 +36,13 @@ class Nori(unittest.TestCase):
                 print(f"{path.name} {i} {integrator}: {mean:.6g} for {reference:.6g}, t = {t:.2f}, p = {p:.3f}")
                 self.assertGreaterEqual(p, level)
 
-    def mean_luminance(self, scene, samples):
+    def mean_luminance(self, scene, samples, seed, strategy):
         scene["film"] = {"width": WIDTH, "height": HEIGHT}
         scene["camera"]["fovAxis"] = "vertical"
-        scene["integrator"]["samplesPerPixel"] = samples // (WIDTH * HEIGHT)
+        scene["integrator"].update(samplesPerPixel=samples // (WIDTH * HEIGHT), seed=seed)
         with tempfile.TemporaryDirectory() as folder:
-            file = witness.render(PROGRAMS, scene, pathlib.Path(folder), device=DEVICE)
+            file = witness.render(PROGRAMS, scene, pathlib.Path(folder), device=DEVICE,
+                                  options=("--light-sampling", strategy))
             picture = pictures.read_rendered(PROGRAMS.pictures, file)
         values = picture.luminances()
         return sum(values) / len(values), math.sqrt(sum(picture.variance)) / len(values)
