@@ -156,7 +156,7 @@ void VulkanDevice::preparePipeline(bool texel, const SceneFeatures& features, ui
     firstHitsBound_ = false;
     adaptive_ = {};
     try {
-        pipeline_ = makePipeline("path", BINDING_COUNT);
+        pipeline_ = makePipeline(features.glossy ? "path_glossy" : "path", BINDING_COUNT);
     } catch (...) {
         pipelineStack_ = 0;
         throw;
@@ -255,7 +255,9 @@ std::unique_ptr<AdaptivePicture> VulkanDevice::beginAdaptive(const AdaptiveWindo
 {
     if (!scene_) throw usageError("adaptive sampling on '{}' without a scene", context_->physical.name);
     if (!adaptive_) {
-        ComputePipeline path = makePipeline("adaptive_path", BINDING_COUNT, sizeof(AdaptiveDispatch));
+        const bool glossy = pipelineFeatures_.glossy;
+        ComputePipeline path = makePipeline(glossy ? "adaptive_path_glossy" : "adaptive_path",
+                                            BINDING_COUNT, sizeof(AdaptiveDispatch));
         adaptive_ = std::make_unique<AdaptivePipelines>(
             makeAdaptivePipelines(*context_, std::move(path), group_, statistics_.exactMath));
     }

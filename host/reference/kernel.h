@@ -11,6 +11,7 @@
 
 #include <span>
 
+#define SAHL_GLOSSY
 #define CONST static constexpr
 #define OUT(T) T&
 #define INOUT(T) T&

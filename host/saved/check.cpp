@@ -42,6 +42,11 @@ bool isAmount(const vec3& v)
     return isFinite(v) && v.x >= 0 && v.y >= 0 && v.z >= 0;
 }
 
+bool isShare(float x)
+{
+    return x >= 0 && x <= 1;
+}
+
 bool isSoundShape(const Primitive& primitive)
 {
     if (primitive.shape != SHAPE_SPHERE) return true;
@@ -137,12 +142,13 @@ void checkNormals(const std::string& file, std::span<const TriangleCorners> norm
 
 bool isSound(const Material& material)
 {
-    return material.type <= MATERIAL_REPORT && isAmount(material.baseColor) &&
+    return material.type <= MATERIAL_METALLIC_ROUGHNESS && isAmount(material.baseColor) &&
            isAmount(material.emission) && isFinite(material.eta) && material.eta > 0 &&
            isAmount(material.conductorEta) && isAmount(material.conductorK) &&
            isAmount({material.diffuseWeight, material.specularWeight, material.shininess}) &&
            isAmount(material.specularColor) && isAmount(material.ambientColor) &&
-           isAmount({material.roughness, material.metallic, material.transmission}) &&
+           isShare(material.roughness) && isShare(material.metallic) &&
+           isShare(material.transmission) &&
            isAmount({material.alphaCutoff, 0, 0});
 }
 

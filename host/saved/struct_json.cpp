@@ -73,7 +73,8 @@ static_assert(bytesOf(TEXTURE_FIELDS) + UNUSED_IN_TEXTURE == sizeof(Texture),
 
 // By their numbers, MATERIAL_* and LIGHT_*.
 const std::vector<std::string> MATERIAL_TYPES = {"lambert", "mirror", "dielectric", "conductor",
-                                                 "report"};
+                                                 "report", "roughConductor", "roughDielectric",
+                                                 "thinDielectric", "plastic", "metallicRoughness"};
 const std::vector<std::string> LIGHT_TYPES = {"point", "spot", "directional"};
 
 std::string wordOf(uint type, const std::vector<std::string>& words)

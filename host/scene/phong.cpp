@@ -24,6 +24,13 @@ vec3 reflectanceAtRightAngles(const Material& metal)
     return toFloat((less * less + k * k) / (more * more + k * k));
 }
 
+/// The same for a clear coat.
+vec3 coatAtRightAngles(const Material& coat)
+{
+    const double r = (double{coat.eta} - 1) / (double{coat.eta} + 1);
+    return vec3(toFloat(r * r));
+}
+
 void setBit(uint32_t& bits, uint32_t bit, bool on)
 {
     bits = on ? bits | bit : bits & ~bit;
@@ -48,13 +55,23 @@ void setPhongDefaults(Material& material)
         material.specularColor = material.baseColor;
         break;
     case MATERIAL_DIELECTRIC:
+    case MATERIAL_ROUGH_DIELECTRIC:
+    case MATERIAL_THIN_DIELECTRIC:
         material.specularColor = vec3(1);
         break;
     case MATERIAL_CONDUCTOR:
+    case MATERIAL_ROUGH_CONDUCTOR:
         material.ambientColor = material.specularColor = reflectanceAtRightAngles(material);
         break;
     case MATERIAL_REPORT:
         material.specularColor = vec3(material.specularWeight);
+        break;
+    case MATERIAL_PLASTIC:
+        material.specularColor = coatAtRightAngles(material);
+        break;
+    case MATERIAL_METALLIC_ROUGHNESS:
+        material.specularColor =
+            glm::mix(coatAtRightAngles(material), material.baseColor, material.metallic);
         break;
     default:
         break;

@@ -1,5 +1,6 @@
 // The materials of scene files.
 #include "scene/numbers.h"
+#include "scene/plastic.h"
 #include "scene/primitives.h"
 #include "scene/scene_reading.h"
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr Range SHARE = {0, 1};
 constexpr Range INDEX_OF_REFRACTION = {1e-30, 1e6};
+constexpr Range COAT_INDEX = {1, 4};
 constexpr Range CONDUCTOR_INDEX = {0, 1e6};
 
 /// Complex index of refraction eta + i k at red, green and blue.
@@ -70,13 +72,50 @@ void readReportMaterial(const JsonObject& object, Material& material)
     }
 }
 
+float readShare(const JsonObject& object, const char* key, double otherwise)
+{
+    return toFloat(object.number(key, otherwise, SHARE));
+}
+
+/// Of the types that have a roughness; whoever gives none, nor a picture of it, gets a smooth surface.
+void readRoughness(const JsonObject& object, uint roughType, Material& material)
+{
+    material.roughness = readShare(object, "roughness", object.has("roughnessTexture") ? 1 : 0);
+    if (material.roughness > 0) material.type = roughType;
+}
+
+/// The types of which a material is more than a few numbers.
+void readLayers(const JsonObject& object, const std::string& type, Material& material)
+{
+    if (type == "thinDielectric") {
+        material.type = MATERIAL_THIN_DIELECTRIC;
+        material.eta = toFloat(object.number("eta", 1.5, INDEX_OF_REFRACTION));
+    }
+    if (type == "plastic") {
+        material.type = MATERIAL_PLASTIC;
+        material.eta = toFloat(object.number("eta", 1.5, COAT_INDEX));
+        readRoughness(object, MATERIAL_PLASTIC, material);
+        completePlastic(material);
+    }
+    if (type == "metallicRoughness") {
+        material.type = MATERIAL_METALLIC_ROUGHNESS;
+        material.eta = toFloat(object.number("eta", 1.5, COAT_INDEX));
+        material.roughness = readShare(object, "roughness", 1);
+        material.metallic = readShare(object, "metallic", 1);
+        material.transmission = readShare(object, "transmission", 0);
+    }
+}
+
 Material readMaterial(SceneReading& reading, const JsonNode& node, const std::string& what)
 {
     const JsonDocument& document = reading.document;
     const std::string type =
-        readType(document, node, what, {"lambert", "mirror", "dielectric", "conductor", "report"});
+        readType(document, node, what,
+                 {"lambert", "mirror", "dielectric", "conductor", "report", "thinDielectric",
+                  "plastic", "metallicRoughness"});
     const JsonObject object(document, node, what, type + "Material");
-    const bool coloured = (type == "lambert" || type == "report") && !object.has("baseColorTexture");
+    const bool diffuse = type == "lambert" || type == "report" || type == "plastic";
+    const bool coloured = diffuse && !object.has("baseColorTexture");
     Material material = {};
     material.eta = 1;
     const glm::dvec3 emission(object.has("emissionTexture") ? 1 : 0);
@@ -91,15 +130,20 @@ Material readMaterial(SceneReading& reading, const JsonNode& node, const std::st
     }
     material.type = MATERIAL_LAMBERT;
     if (type == "mirror") material.type = MATERIAL_MIRROR;
-    if (type == "dielectric") material.type = MATERIAL_DIELECTRIC;
+    if (type == "dielectric") {
+        material.type = MATERIAL_DIELECTRIC;
+        readRoughness(object, MATERIAL_ROUGH_DIELECTRIC, material);
+    }
     if (type == "conductor") {
         material.type = MATERIAL_CONDUCTOR;
         readConductor(object, material);
+        readRoughness(object, MATERIAL_ROUGH_CONDUCTOR, material);
     }
     if (type == "report") {
         material.type = MATERIAL_REPORT;
         readReportMaterial(object, material);
     }
+    readLayers(object, type, material);
     readMaterialTextures(reading, object, material);
     readPhongMaterial(object, material);
     return material;

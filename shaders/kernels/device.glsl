@@ -1,5 +1,7 @@
 // What a kernel provides to the path tracer's text: buffers behind accessors, and the frame.
 // SAHL_TEXEL_BUFFERS chooses uniform texel buffers; otherwise the scene is read from storage buffers.
+// SAHL_GLOSSY is for scenes with materials from MATERIAL_ROUGH_CONDUCTOR on: a kernel of its own, as some
+// drivers compile and run all branches, whatever a specialisation constant says.
 
 #define CONST const
 #define OUT(T) out T

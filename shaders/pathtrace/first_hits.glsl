@@ -17,7 +17,9 @@ FirstHits noFirstHits()
 /// Share of light that a material returns, roughly, as a colour in [0,1]: what denoisers expect.
 vec3 albedoOf(Material material)
 {
-    if (material.type == MATERIAL_CONDUCTOR) return conductorReflectance(material, 1.0f);
+    if (material.type == MATERIAL_CONDUCTOR || material.type == MATERIAL_ROUGH_CONDUCTOR) {
+        return conductorReflectance(material, 1.0f);
+    }
     if (material.type == MATERIAL_REPORT) {
         return material.baseColor * material.diffuseWeight + vec3(material.specularWeight);
     }

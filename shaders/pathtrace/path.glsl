@@ -61,9 +61,9 @@ bool sampleDirectLight(Material material, SurfaceInteraction isect, uint dimensi
     uvec4 bits = randomBits4(path.pixel, path.sampleIndex, dimension + DIMENSION_LIGHT);
     LightSample ls = sampleLight(isect, u, bits);
     if (!(ls.distance > 0.0f)) return false;
-    vec3 f = flushed3(evalBsdfCos(material, isect, -path.dir, ls.wi));
-    float weight = weightOfLightSample(ls.pdf, pdfBsdf(material, isect, -path.dir, ls.wi));
-    path.Ld = flushed3(flushed3(path.beta * f * ls.Li) * weight);
+    BsdfValue bsdf = evalBsdf(material, isect, -path.dir, ls.wi);
+    float weight = weightOfLightSample(ls.pdf, bsdf.pdf);
+    path.Ld = flushed3(flushed3(path.beta * flushed3(bsdf.f) * ls.Li) * weight);
     if (!(maxComponent(path.Ld) > 0.0f)) return false;
     aimShadowRay(isect, ls, path);
     return true;

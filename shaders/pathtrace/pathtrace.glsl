@@ -1,5 +1,6 @@
 // The path tracer, in the order in which a path meets its parts. The includer provides the buffers
-// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, TRAVERSAL_ORDER, EXACT_MATH, HAS_... and the macros OUT and INOUT.
+// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, TRAVERSAL_ORDER, EXACT_MATH, HAS_... and the macros OUT
+// and INOUT; it defines SAHL_GLOSSY where it wants all materials.
 
 // Invocation-wide state.
 struct Tally
@@ -33,6 +34,13 @@ CONST float RAY_INFINITY = 3.0e38f;
 #include "pathtrace/interaction.glsl"
 #include "pathtrace/normal_map.glsl"
 #include "pathtrace/fresnel.glsl"
+#include "pathtrace/lobes.glsl"
+#include "pathtrace/smooth.glsl"
+#include "pathtrace/microfacet.glsl"
+#include "pathtrace/coat.glsl"
+#include "pathtrace/plastic.glsl"
+#include "pathtrace/metallic_roughness.glsl"
+#include "pathtrace/glossy.glsl"
 #include "pathtrace/bsdf.glsl"
 #include "pathtrace/probe.glsl"
 #include "pathtrace/light_choice.glsl"

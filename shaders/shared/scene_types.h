@@ -113,6 +113,11 @@ SHARED_CONST uint MATERIAL_MIRROR = 1u;      // reflects baseColor of what arriv
 SHARED_CONST uint MATERIAL_DIELECTRIC = 2u;  // smooth glass, water: eta; baseColor tints transmission
 SHARED_CONST uint MATERIAL_CONDUCTOR = 3u;   // smooth metal: conductorEta, conductorK
 SHARED_CONST uint MATERIAL_REPORT = 4u;      // the report's: weights of a diffuse and a dielectric part
+SHARED_CONST uint MATERIAL_ROUGH_CONDUCTOR = 5u;   // as MATERIAL_CONDUCTOR, with a roughness
+SHARED_CONST uint MATERIAL_ROUGH_DIELECTRIC = 6u;  // as MATERIAL_DIELECTRIC, with a roughness
+SHARED_CONST uint MATERIAL_THIN_DIELECTRIC = 7u;   // a pane: eta; baseColor tints what passes through it
+SHARED_CONST uint MATERIAL_PLASTIC = 8u;           // diffuse, baseColor, under a coat: eta, roughness
+SHARED_CONST uint MATERIAL_METALLIC_ROUGHNESS = 9u;  // glTF's
 
 SHARED_CONST uint NO_TEXTURE = 0u;  // textures of a material are counted from 1
 
@@ -133,7 +138,8 @@ struct Material
     uint unused0;
     float roughness;      // perceptual, in [0,1]: its square is GGX's alpha
     float metallic;       // in [0,1]
-    float transmission;   // share of what is not metallic that lets light through, in [0,1]
+    float transmission;   // share of what is not metallic that lets light through, in [0,1];
+                          // MATERIAL_PLASTIC: of even light the share that enters the coat
     float alphaCutoff;    // below this alpha there is no surface; 0: alpha is not asked for
     uint baseColorTexture;   // number in `textures` counted from 1, or NO_TEXTURE, as the rest
     uint roughnessTexture;   // green: roughness, blue: metallic

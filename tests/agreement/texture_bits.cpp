@@ -29,7 +29,15 @@ protected:
     }
 };
 
-TEST_F(TextureBits, areEqualThroughStorageBuffersAndTexelBuffers)
+TEST_F(TextureBits, areEqual)
+{
+    expectReference({});
+}
+
+// Every pipeline takes seconds to compile, so the rest is not for every day.
+class LongTextureBits : public TextureBits {};
+
+TEST_F(LongTextureBits, areEqualThroughStorageBuffersAndTexelBuffers)
 {
     DeviceOptions options;
     options.buffers = DeviceOptions::Buffers::storage;
@@ -38,14 +46,14 @@ TEST_F(TextureBits, areEqualThroughStorageBuffersAndTexelBuffers)
     expectReference(options);
 }
 
-TEST_F(TextureBits, areEqualWithExactMath)
+TEST_F(LongTextureBits, areEqualWithExactMath)
 {
     DeviceOptions options;
     options.math = DeviceOptions::Math::exact;
     expectReference(options);
 }
 
-TEST_F(TextureBits, areEqualInAnotherOrderOfTraversal)
+TEST_F(LongTextureBits, areEqualInAnotherOrderOfTraversal)
 {
     DeviceOptions options;
     options.traversalOrder = ORDER_RIGHT_FIRST;
@@ -55,7 +63,7 @@ TEST_F(TextureBits, areEqualInAnotherOrderOfTraversal)
 }
 
 /// One device: a scene without textures, this one, the same without holes, and first hits.
-TEST_F(TextureBits, areEqualAfterOtherScenes_andOfFirstHits)
+TEST_F(LongTextureBits, areEqualAfterOtherScenes_andOfFirstHits)
 {
     auto device = openFirstDevice();
     const PreparedScene plain =

@@ -33,6 +33,57 @@ TEST(JsonMaterials, everyTypeHasSensibleDefaults)
     EXPECT_EQ(report.eta, 1.5f);
 }
 
+TEST(JsonMaterials, roughnessMakesMetalAndGlassRough)
+{
+    const Material metal = materialOf(R"({ "type": "conductor", "metal": "gold", "roughness": 0.5 })");
+    EXPECT_EQ(metal.type, MATERIAL_ROUGH_CONDUCTOR);
+    EXPECT_EQ(metal.roughness, 0.5f);
+    EXPECT_EQ(metal.conductorEta.x, 0.21f);
+    const Material glass = materialOf(R"({ "type": "dielectric", "roughness": 0.25, "eta": 1.33 })");
+    EXPECT_EQ(glass.type, MATERIAL_ROUGH_DIELECTRIC);
+    EXPECT_EQ(glass.roughness, 0.25f);
+    EXPECT_EQ(glass.eta, 1.33f);
+    EXPECT_EQ(materialOf(R"({ "type": "conductor", "roughness": 0 })").type, MATERIAL_CONDUCTOR);
+    EXPECT_EQ(materialOf(R"({ "type": "dielectric", "roughness": 0 })").type, MATERIAL_DIELECTRIC);
+}
+
+TEST(JsonMaterials, layeredTypesArriveInTheirFields)
+{
+    const Material pane = materialOf(R"({ "type": "thinDielectric", "eta": 1.6 })");
+    EXPECT_EQ(pane.type, MATERIAL_THIN_DIELECTRIC);
+    EXPECT_EQ(pane.eta, 1.6f);
+    EXPECT_EQ(pane.baseColor, vec3(1));
+    const Material plastic = materialOf(R"({ "type": "plastic" })");
+    EXPECT_EQ(plastic.type, MATERIAL_PLASTIC);
+    EXPECT_EQ(plastic.baseColor, vec3(0.7f));
+    EXPECT_EQ(plastic.roughness, 0.0f);
+    // 1 less the reflectance of eta 1.5 averaged over the hemisphere, 0.0918: Egan and Hilgeman 1973
+    EXPECT_NEAR(plastic.transmission, 1 - 0.0918, 5e-5);
+    const Material gltf = materialOf(R"({ "type": "metallicRoughness" })");
+    EXPECT_EQ(gltf.type, MATERIAL_METALLIC_ROUGHNESS);
+    EXPECT_EQ(gltf.metallic, 1.0f);
+    EXPECT_EQ(gltf.roughness, 1.0f);
+    EXPECT_EQ(gltf.transmission, 0.0f);
+    EXPECT_EQ(gltf.eta, 1.5f);
+    const Material wall = materialOf(R"({ "type": "metallicRoughness", "metallic": 0.25,
+        "roughness": 0.5, "transmission": 0.75, "eta": 1.25, "baseColor": [0.5, 0.25, 1] })");
+    EXPECT_EQ(wall.metallic, 0.25f);
+    EXPECT_EQ(wall.roughness, 0.5f);
+    EXPECT_EQ(wall.transmission, 0.75f);
+    EXPECT_EQ(wall.eta, 1.25f);
+    EXPECT_EQ(wall.baseColor, vec3(0.5f, 0.25f, 1));
+}
+
+TEST(JsonMaterials, numbersOutOfRangeAreRefused)
+{
+    for (const char* text :
+         {R"({ "type": "conductor", "roughness": 1.5 })", R"({ "type": "dielectric", "roughness": -0.1 })",
+          R"({ "type": "plastic", "eta": 0.9 })", R"({ "type": "metallicRoughness", "metallic": 2 })",
+          R"({ "type": "metallicRoughness", "transmission": -1 })"}) {
+        EXPECT_THROW(materialOf(text), Error) << text;
+    }
+}
+
 TEST(JsonMaterials, valuesArriveInTheirFields)
 {
     const Material water = materialOf(

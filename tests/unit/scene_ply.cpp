@@ -349,7 +349,7 @@ TEST(Ply, isAShapeOfScenesWithMaterialAndSmoothNormals)
     files.write("mesh.stl", "solid");
     files.write("t.json", R"({ "shapes": [{ "type": "mesh", "file": "mesh.stl" }] })");
     EXPECT_CONTAINS(errorOfFile(files, "t.json"),
-                    "mesh.stl: \".stl\" is no kind of mesh that is read; use .obj or .ply");
+                    "mesh.stl: \".stl\" is no kind of mesh that is read; use .obj, .ply, .gltf or .glb");
 }
 
 TEST(Ply, packedObjFilesFindTheirMaterialsBesideThem)
