@@ -133,15 +133,3 @@ def write_png(path, bitmap):
 
 def constant(width, height, color):
     return Bitmap(width, height, len(color), [bytes(color) * width] * height)
-
-
-def as_alpha(mask):
-    """White with the grey of a mask as alpha."""
-    rows = []
-    for y in range(mask.height):
-        rows.append(b"".join(bytes((255, 255, 255, encoded_alpha(mask.linear(x, y, 0)))) for x in range(mask.width)))
-    return Bitmap(mask.width, mask.height, 4, rows)
-
-
-def encoded_alpha(value):
-    return round(255 * value)

@@ -50,12 +50,6 @@ class Surface:
                 texture.update(V_DOWN)
         return made
 
-    def back(self, v_down):
-        """Black, with the same holes."""
-        kept = {key: value for key, value in self.described(v_down).items() if "alphaCutoff" in self.material
-                and key in ("baseColorTexture", "alphaCutoff")}
-        return {"type": "lambert", "baseColor": [0, 0, 0], **kept}
-
 
 class Maker:
     """Makes surfaces of one scene's file.
@@ -146,13 +140,8 @@ class Maker:
         return surface
 
     def _mask(self, node):
-        """Holes where opacity is below a half; theirs are half open where it is a half."""
-        surface = self.surface(self.document.members(node, "bsdf")[0])
-        mask = self.document.file(self.document.word(self.document.child(node, "opacity"), "filename", ""))
-        target = self.folder / (mask.stem + "-alpha.png")
-        bitmaps.write_png(target, bitmaps.as_alpha(bitmaps.read(mask)))
-        surface.material.update(baseColorTexture={"file": target.name}, alphaCutoff=0.5)
-        return surface
+        """Ours are open where opacity is below a half, theirs half open where it is a half."""
+        raise Unsupported("a mask that is half open in places")
 
     def _dielectric(self, node):
         return Surface({"type": "dielectric", "eta": self.eta(node)})

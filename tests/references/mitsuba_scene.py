@@ -146,7 +146,7 @@ class Reader:
     def _shape_obj(self, node, matrix, surface):
         file = self.document.file(self.document.word(node, "filename", ""))
         if file.stem == "rectangle" and surface.one_sided:
-            self._mesh(file, behind(matrix), surface.back(False))
+            self._mesh(file, behind(matrix), lambert([0, 0, 0]))
         self._mesh(file, matrix, surface.described(False))
 
     def _mesh(self, file, matrix, material):
@@ -155,7 +155,7 @@ class Reader:
 
     def _shape_rectangle(self, node, matrix, surface):
         if surface.one_sided:
-            self._rectangle(behind(matrix), (0, 0, 1, 1), surface.back(True))
+            self._rectangle(behind(matrix), (0, 0, 1, 1), lambert([0, 0, 0]))
         if surface.checkers:
             for cell, material in surface.checkers.cells():
                 self._rectangle(matrix, cell, material)

@@ -57,13 +57,13 @@ class Mitsuba(unittest.TestCase):
         return pictures.read_rendered(PROGRAMS.pictures,
                                       witness.render(PROGRAMS, scene, self.folder, name, device=DEVICE))
 
-    def agree(self, name, ours, theirs, samples, sure=SURE, frame=FRAME):
+    def agree(self, name, ours, theirs, samples, sure=SURE, frame=FRAME, level=0.01):
         """The frame's mean within FRAME, the frame and no block further off than noise explains."""
         if not any(theirs.rgb):
             print(f"| {name} | black | | | {samples} |", flush=True)
             self.assertFalse(any(ours.rgb))
             return
-        found = witness.compare(PROGRAMS, ours, theirs, self.folder)["statistics"]
+        found = witness.compare(PROGRAMS, ours, theirs, self.folder, level)["statistics"]
         difference, error = (found["frame"][key] / found["meanB"] for key in ("difference", "standardError"))
         print(f"| {name} | {100 * difference:+.3f} | {100 * error:.3f} | "
               f"{len(found['differingBlocks'])} of {found['testedBlocks']} | {samples} |", flush=True)
@@ -110,16 +110,17 @@ class Mitsuba(unittest.TestCase):
                 print(f"| {what} | not compared: {lacking[id(node)]} |")
             else:
                 kept.append((what, window_of(reader.scene["camera"], center, ours.width)))
+        level = 1 - 0.99 ** (1 / len(kept))
         for what, (x, y) in kept:
             with self.subTest(window=what):
                 parts = [picture.window(x, y, WINDOW, WINDOW) for picture in (ours, theirs)]
-                self.agree(what, *parts, samples, sure=10 * SURE, frame=10 * FRAME)
+                self.agree(what, *parts, samples, sure=10 * SURE, frame=10 * FRAME, level=level)
         together = [stacked([picture.window(x, y, WINDOW, WINDOW) for _, (x, y) in kept])
                     for picture in (ours, theirs)]
         self.agree(f"{name}: these together", *together, samples)
 
     def test_spheres_of_many_materials_in_white_light(self):
-        self.windows("bsdf_spheres/test_constant_path.xml", "bsdf_spheres/refs/test_constant", 4096,
+        self.windows("bsdf_spheres/test_constant_path.xml", "bsdf_spheres/refs/test_constant", 16384,
                      beckmann=NARROW)
 
     def test_spheres_of_many_materials_by_a_point_light(self):
@@ -166,7 +167,7 @@ class Mitsuba(unittest.TestCase):
         shining["integrator"]["maxBounces"] -= 1
         paper, = (shape for shape in shining["shapes"] if shape.get("name") == "receiver-plane")
         split_paper(shining, paper, lights, self.folder)
-        samples = 2048
+        samples = 512
         ours = self.rendered(reader.scene, samples) + self.rendered(shining, samples, "projected")
         self.agree("various_emitters/refs/test_various_emitters", ours,
                    reference("various_emitters/refs/test_various_emitters"), samples)

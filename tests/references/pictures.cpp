@@ -1,6 +1,6 @@
 // Pictures for the witnesses' scripts, which have no reader of EXR files of their own.
-//   read FILE [CHANNEL...]   to stdout: a line "WIDTH HEIGHT", R G B of every pixel, then the channels,
-//                            float32 as this machine has it, top row first
+//   read FILE [CHANNEL...]   to stdout: a line "WIDTH HEIGHT", R G B of every pixel, then the
+//                            channels, float32 as this machine has it, top row first
 //   write FILE WIDTH HEIGHT [CHANNEL...]   from stdin the same without the line, into an EXR file
 // Exit code 3: a file cannot be used.
 
@@ -63,7 +63,8 @@ void run(const Names& arguments)
         read(arguments[1], {arguments.begin() + 2, arguments.end()});
     } else if (count >= 4 && arguments[0] == "write") {
         auto side = [](const std::string& text) { return static_cast<uint32_t>(std::stoul(text)); };
-        write(arguments[1], side(arguments[2]), side(arguments[3]), {arguments.begin() + 4, arguments.end()});
+        write(arguments[1], side(arguments[2]), side(arguments[3]),
+              {arguments.begin() + 4, arguments.end()});
     } else {
         throw badInput("usage: read FILE [CHANNEL...] | write FILE WIDTH HEIGHT [CHANNEL...]");
     }

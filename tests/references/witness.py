@@ -33,12 +33,13 @@ def render(programs, scene, folder, name="scene", device=CPU, options=()):
     return picture
 
 
-def compare(programs, ours, theirs, folder, name="window"):
-    """What sahl compare finds about two pictures in memory that know their noise; as its JSON says it."""
-    files = [folder / f"{name}-{side}.exr" for side in ("ours", "theirs")]
+def compare(programs, ours, theirs, folder, level=0.01):
+    """What sahl compare finds about two pictures in memory that know their noise; as its JSON says it.
+      level  the chance that equal scenes are called different"""
+    files = [folder / f"{side}.exr" for side in ("ours", "theirs")]
     for file, picture in zip(files, (ours, theirs)):
         pictures.write(programs.pictures, file, picture)
-    done = subprocess.run([programs.sahl, "compare", *files, "--json"], stdout=subprocess.PIPE,
+    done = subprocess.run([programs.sahl, "compare", *files, "--json", "--level", str(level)], stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, text=True, check=False)
     if done.returncode > 2:
         raise RuntimeError(f"sahl compare: exit code {done.returncode}: {done.stderr}")
