@@ -98,8 +98,8 @@ TEST_P(LongVerifySmallScenes, haveNoDifferingBitInExactMath)
 
 constexpr const char* SMALL_SCENES[] = {
     "mirror", "dielectric",  "conductor",  "report_material", "sphere",  "lens",  "orthographic",
-     "spot",   "directional", "background", "emission",        "angular", "phong", "instances",
-     "gltf",   "rough_conductor", "rough_dielectric", "layers"};
+    "spot",   "directional", "background", "emission",        "angular", "phong", "instances", "gltf",
+    "rough_conductor", "rough_dielectric", "layers"};
 
 const auto nameOfScene = [](const auto& tested) { return std::string(tested.param); };
 
