@@ -284,6 +284,21 @@ void nameShape(SceneReading& reading, const JsonObject& shape, size_t firstPrimi
     }
 }
 
+/// Whether an MTL file describes the material by the keys of physically based shading.
+bool isMetallicRoughness(const ObjMaterial& m)
+{
+    return m.roughness || m.metallic || m.maps.roughness || m.maps.metallic;
+}
+
+/// Numbers that are not given are 1 where there is a map of them, else those of a rough non-metal.
+void makeMetallicRoughness(const ObjMaterial& m, Material& material)
+{
+    material.type = MATERIAL_METALLIC_ROUGHNESS;
+    material.eta = 1.5f;
+    material.roughness = m.roughness.value_or(1.0f);
+    material.metallic = m.metallic.value_or(m.maps.metallic ? 1.0f : 0.0f);
+}
+
 }  // namespace
 
 Transform readTransform(const SceneReading& reading, const JsonObject& shape)
@@ -360,6 +375,7 @@ void appendObj(Scene& scene, const ObjFile& obj, const Transform& transform, boo
         added.ambientColor = m.ambientColor.value_or(added.ambientColor);
         added.specularColor = m.specularColor;
         added.shininess = m.shininess.value_or(added.shininess);
+        if (isMetallicRoughness(m)) makeMetallicRoughness(m, added);
         applyMtlMaps(scene, m.maps, m.opacity, added);
     }
     Mesh smoothMesh;

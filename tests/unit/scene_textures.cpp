@@ -152,6 +152,9 @@ TEST(MtlTextures, becomeThoseOfTheMaterial)
     EXPECT_EQ(scene.textures.at(m.normalTexture - 1).flags, 0u);
     EXPECT_EQ(scene.textures.at(m.normalTexture - 1).strength, 0.5f);
     EXPECT_EQ(m.alphaCutoff, 0);
+    EXPECT_EQ(m.type, MATERIAL_METALLIC_ROUGHNESS);
+    EXPECT_EQ(m.roughness, 0.5f);
+    EXPECT_EQ(m.metallic, 1);
     const TriangleCorners corners = scene.triangleCorners.at(0);
     EXPECT_EQ(vec3(corners.u0, corners.u1, corners.u2), vec3(0, 2, 0.5f));
     EXPECT_EQ(vec3(corners.v0, corners.v1, corners.v2), vec3(0, -1.5f, 0));
@@ -172,6 +175,11 @@ TEST(MtlTextures, ofRoughnessAndMetalAndOfAlpha_areJoined)
     EXPECT_EQ(texelOf(m.baseColorTexture), packTexel(10, 20, 30, 100));
     // 0.2126 x 10 + 0.7152 x 20 + 0.0722 x 30 = 18.6
     EXPECT_EQ(texelOf(m.roughnessTexture), packTexel(255, 200, 19, 255));
+    EXPECT_EQ(m.type, MATERIAL_METALLIC_ROUGHNESS);
+    EXPECT_EQ(m.roughness, 1);
+    EXPECT_EQ(m.metallic, 1);
+    EXPECT_EQ(files.loadMtl("Pr 0.25\n").materials.at(0).metallic, 0);
+    EXPECT_EQ(files.loadMtl("Kd 1 1 1\n").materials.at(0).type, MATERIAL_LAMBERT);
     const Scene alone = files.loadMtl("map_Pm -imfchan b c.png\n");
     EXPECT_EQ(alone.textureTexels.back(), packTexel(255, 255, 255, 255));
 }
