@@ -1,4 +1,4 @@
-// How a material of a glTF file looks: the one place that decides which of Sahl's it becomes.
+// How a material of a glTF file looks: Sahl's metallicRoughness, whose parameters are the format's.
 #include "scene/gltf_scene.h"
 #include "scene/numbers.h"
 #include "scene/phong.h"
@@ -60,9 +60,7 @@ uint32_t addGltfMaterial(Scene& scene, const GltfModel& model, const GltfMateria
     result.normalTexture =
         addTextureOf(scene, model, material.normalTexture, false, material.normalStrength);
     result.emissionTexture = addTextureOf(scene, model, material.emissionTexture, true);
-    result.type = MATERIAL_LAMBERT;
-    if (material.transmission > 0.5) result.type = MATERIAL_DIELECTRIC;
-    if (material.metallic > 0.5 && material.roughness < 0.5) result.type = MATERIAL_MIRROR;
+    result.type = MATERIAL_METALLIC_ROUGHNESS;
     setPhongDefaults(result);
     return addMaterial(scene, material.name, result);
 }
