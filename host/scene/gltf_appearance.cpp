@@ -1,4 +1,4 @@
-// How a material of a glTF file looks.
+// How a material of a glTF file looks: Sahl's metallicRoughness, whose parameters are the format's.
 #include "scene/gltf_scene.h"
 #include "scene/numbers.h"
 #include "scene/phong.h"

@@ -9,6 +9,7 @@ namespace sahl {
 namespace {
 
 constexpr Range SHARE = {0, 1};
+constexpr double MAX_ETA = 4;  // of Sahl's metallicRoughness
 constexpr double DEG_PER_RAD = 57.29577951308232087680;
 
 /// KHR_texture_transform: coordinates are scaled, turned and moved, in this order.
@@ -79,6 +80,10 @@ void readRefraction(GltfModel& model, const JsonObject& object, GltfMaterial& ma
             }
             material.eta = 1.5;
             leaveOut(model.file, "an ior of 0 is not read; 1.5 is used");
+        }
+        if (material.eta > MAX_ETA) {
+            material.eta = MAX_ETA;
+            leaveOut(model.file, "an ior above 4 is not read; 4 is used");
         }
     }
     const auto transmission = extensionOf(object, "KHR_materials_transmission");
