@@ -11,6 +11,7 @@ inline Scene lampScene(uint32_t width, uint32_t height, uint32_t seed)
 {
     Scene scene = emptyScene(width, height, 6);
     scene.settings.seed = seed;
+    scene.settings.lightSampling = LIGHTS_BSDF_ONLY;
     addMaterialOf(scene, MATERIAL_LAMBERT, vec3(0.7f));
     addLevel(scene, 0, 4);
     addMaterialOf(scene, MATERIAL_DIELECTRIC, vec3(1), 1.5f);
