@@ -56,7 +56,7 @@ void addSamplingOptions(CLI::App& command, SceneOptions& scene)
             "--light-sampling", setLights,
             withDefault("how paths find shapes that shine and the environment: mis\n"
                         "(both ways), lights (shadow rays alone) or bsdf (scattered\n"
-                        "rays alone); changes no mean (docs/lights.md)",
+                        "rays alone): docs/lights.md",
                         "the scene's, else mis"))
         ->type_name("WAY")
         ->group("Picture");

@@ -89,6 +89,9 @@ Kernel<> kernelOf(const PreparedScene& prepared)
     kernel.triangleCorners = scene.triangleCorners;
     kernel.materials = scene.materials;
     kernel.lights = scene.lights;
+    kernel.aliasEntries = scene.aliasEntries;
+    kernel.textures = scene.textures;
+    kernel.textureTexels = scene.textureTexels;
     kernel.probeTexels = scene.probeTexels;
     kernel.frame = scene.frame;
     return kernel;
