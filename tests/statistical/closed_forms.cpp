@@ -3,6 +3,7 @@
 #include "scene/mesh.h"
 #include "scene/primitives.h"
 #include "support/render_scenes.h"
+#include "support/witness.h"
 
 #include <gtest/gtest.h>
 
@@ -43,34 +44,19 @@ void setProbe(Scene& scene, uint32_t rows, F f)
     }
 }
 
-struct Mean {
-    double value;
-    double standardError;
-};
-
-/// Mean of the green channel over the frame, with the standard error from the sums of squares
-/// (the pictures here are grey, so luminance is green).
 Mean frameMean(Scene scene, uint32_t spp)
 {
     PreparedScene prepared = prepareScene(std::move(scene), BvhBuild::sweep, 2);
     Film film = renderFilm(*makeCpuDevice({}), prepared, 0, spp);
     EXPECT_EQ(film.counters.badSamples, 0u);
-    double sum = 0, sum2 = 0, n = 0;
-    for (const auto& half : film.half) {
-        for (const HalfPixel& pixel : half) {
-            sum += pixel.sum[1].toDouble();
-            sum2 += pixel.sumY2.toDouble();
-            n += pixel.samples;
-        }
-    }
-    double mean = sum / n;
-    return {mean, std::sqrt(std::max(0.0, sum2 / n - mean * mean) / n)};
+    return greyFrameMean(film);
 }
 
 /// Within 4 standard errors and 0.1 %. Where every sample is the same, rounding alone is left: a sum
 /// of up to 65 terms in floats, 1e-5 relative.
 void expectMean(const Mean& mean, double expected)
 {
+    showWitness(mean, expected);
     double rounding = 1e-5 * expected;
     EXPECT_NEAR(mean.value, expected, 4 * mean.standardError + rounding);
     EXPECT_NEAR(mean.value, expected, 1e-3 * expected);

@@ -5,6 +5,7 @@
 #include "scene/mesh.h"
 #include "statistical/lamp_scene.h"
 #include "support/render_scenes.h"
+#include "support/witness.h"
 
 #include <gtest/gtest.h>
 
@@ -12,10 +13,6 @@
 
 namespace sahl::testing {
 namespace {
-
-struct Mean {
-    double value = 0, standardError = 0;
-};
 
 Mean frameMean(const Film& film)
 {
@@ -63,6 +60,7 @@ TEST(Roulette, leavesTheFurnaceItsClosedForm)
                 const Mean mean = frameMean(film);
                 const double expected =
                     (1 - std::pow(double(albedo), BOUNCES + 1)) / (1 - double(albedo));
+                showWitness(mean, expected, samplerKind == SAMPLER_SOBOL ? "sobol" : "independent");
                 EXPECT_NEAR(mean.value, expected, 4 * mean.standardError + 1e-5 * expected)
                     << albedo << ", from depth " << depth << " on";
                 EXPECT_LT(mean.standardError, 0.01 * expected);
