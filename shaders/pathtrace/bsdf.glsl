@@ -49,7 +49,7 @@ float pdfBsdf(Material material, SurfaceInteraction isect, vec3 wo, vec3 wi)
 /// Samples the direction in which a path goes on.
 ///   dir        unit direction of the ray that arrived
 ///   mediumEta  index of refraction where it came from, by the report's rule
-///   u          uniform in [0,1)^4; u.z is spare
+///   u          uniform in [0,1)^4; u.z is left for the choice of a light
 BsdfSample sampleBsdf(Material material, SurfaceInteraction isect, vec3 dir, float mediumEta, vec4 u)
 {
     BsdfSample bs;

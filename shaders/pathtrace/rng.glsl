@@ -1,7 +1,8 @@
 // Random numbers as a function of (seed, pixel, sample, dimension): no state, integers only. How samples of
 // a pixel go together is in sobol.glsl.
 
-// Where a path needs numbers. Each vertex has its own: 4 for its BSDF, then 4 for a light and roulette.
+// Where a path needs numbers. Each vertex has its own: 4 for its BSDF, of which one chooses between probe
+// and lights, then 4 for a light and roulette.
 CONST uint DIMENSION_CAMERA = 0u;
 CONST uint DIMENSION_FIRST_VERTEX = 4u;
 CONST uint DIMENSION_LIGHT = 4u;  // within a vertex

@@ -302,12 +302,12 @@ struct Frame
     uint jitter;         // 1: samples spread over the pixel; 0: all go through its centre
     vec3 ambient;        // INTEGRATOR_PHONG: radiance that arrives from everywhere [W m^-2 sr^-1]
     uint shading;        // SHADING_* bits
-    uint samplerKind;       // one of SAMPLER_*
+    uint samplerKind;    // one of SAMPLER_*
     uint rouletteDepth;  // scatterings after which paths end by chance, or NO_ROULETTE
-    float clampIndirect; // largest luminance that one contribution adds after a scattering; 0: any
+    float clampIndirect; // largest luminance of light scattered more than once, at a time; 0: any
     uint lightSampling;  // one of LIGHTS_*
     uint choiceCount;    // lights that the choice of a light is among
-    float lightPerPower; // 1 / sum of their weights
+    float lightPerPower; // their chance together over the sum of their weights; 0: shapes are left to chance
     float probeChance;   // probability that the choice takes the probe
     uint unused0;
     uint lightsAt;       // where parts of `tables` begin [16 bytes]; the device's own affair
