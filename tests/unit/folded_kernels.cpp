@@ -46,8 +46,8 @@ size_t count(const Words& module, Predicate counts)
     return n;
 }
 
-const char* const KERNELS[] = {"path_texel",          "path_storage",
-                               "first_hits_texel",    "first_hits_storage",
+const char* const KERNELS[] = {"trace_rays_texel",    "trace_rays_storage",   "path_texel",
+                               "path_storage",        "first_hits_texel",     "first_hits_storage",
                                "adaptive_path_texel", "adaptive_path_storage"};
 
 TEST(FoldedKernels, holdNoFloatInstructionThatDiffersBetweenDevices)
