@@ -86,7 +86,7 @@ vec3 greater3(vec3 a, vec3 b)
 /// Corners of the widened box of a primitive. The host builds the tree from the same boxes.
 void primitiveBox(Primitive shape, OUT(vec3) lo, OUT(vec3) hi)
 {
-    if (shape.shape == SHAPE_SPHERE) {
+    if (HAS_SPHERES && shape.shape == SHAPE_SPHERE) {
         lo = shape.p0 - vec3(shape.p1.x);
         hi = shape.p0 + vec3(shape.p1.x);
     } else {
@@ -154,7 +154,7 @@ void visitPrimitive(WalkRay ray, uint slot, INOUT(Traversal) walk)
     float t;
     float b1 = 0.0f;
     float b2 = 0.0f;
-    if (shape.shape == SHAPE_SPHERE) {
+    if (HAS_SPHERES && shape.shape == SHAPE_SPHERE) {
         if (!intersectSphere(ray.org, ray.dir, shape.p0, shape.p1.x, t)) return;
     } else {
         if (!intersectTriangle(ray.org, ray.dir, ray.sheared, shape, t, b1, b2)) return;
