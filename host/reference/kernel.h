@@ -2,6 +2,7 @@
 // The text is included inside a struct whose members stand for the device's buffers.
 #pragma once
 
+#include "reference/four.h"
 #include "shared/adaptive_types.h"
 #include "shared/bindings.h"
 #include "shared/film_types.h"
@@ -15,6 +16,7 @@
 #define CONST static constexpr
 #define OUT(T) T&
 #define INOUT(T) T&
+#define READ(T) const T&
 
 namespace sahl::reference {
 
@@ -22,9 +24,10 @@ using namespace glm;  // GLSL's names: floor, sqrt, floatBitsToUint, ...
 
 /// One invocation. Order is one of ORDER_*. Scenes without instances are rendered without Instances,
 /// which takes a few per cent less time and changes nothing else; likewise those without textures.
-template <uint Order = ORDER_NEAR_FIRST, bool Instances = true, bool Textures = false>
+template <uint Order = ORDER_NEAR_FIRST, bool Instances = true, bool Textures = false, uint NodeWidth = 2>
 struct Kernel {
     static constexpr uint STACK_SIZE = MAX_STACK_SIZE;
+    static constexpr uint NODE_WIDTH = NodeWidth;
     static constexpr uint TRAVERSAL_ORDER = Order;
     static constexpr bool HAS_INSTANCES = Instances;
     static constexpr bool HAS_TEXTURES = Textures;
@@ -32,6 +35,7 @@ struct Kernel {
     static constexpr bool EXACT_MATH = false;  // C++ divides and takes roots exactly anyway
 
     std::span<const BvhNode> nodes;
+    std::span<const WideNode> wideNodes;
     std::span<const Primitive> primitives;
     std::span<const TriangleCorners> triangleCorners;
     std::span<const Material> materials;
@@ -44,6 +48,7 @@ struct Kernel {
     Frame frame = {};
 
     const BvhNode& loadNode(uint index) const { return nodes[index]; }
+    const WideNode& loadWideNode(uint index) const { return wideNodes[index]; }
     const Primitive& loadPrimitive(uint index) const { return primitives[index]; }
     const TriangleCorners& loadCorners(uint index) const { return triangleCorners[index]; }
     const Material& loadMaterial(uint index) const { return materials[index]; }

@@ -6,17 +6,21 @@
 #define CONST const
 #define OUT(T) out T
 #define INOUT(T) inout T
+#define READ(T) T
 
 #include "shared/bindings.h"
 #include "shared/film_types.h"
 #include "shared/scene_types.h"
 
 layout(constant_id = SPEC_STACK_SIZE) const uint STACK_SIZE = 64u;
+layout(constant_id = SPEC_NODE_WIDTH) const uint NODE_WIDTH = 2u;
 layout(constant_id = SPEC_ORDER) const uint TRAVERSAL_ORDER = ORDER_NEAR_FIRST;
 layout(constant_id = SPEC_EXACT_MATH) const bool EXACT_MATH = false;
 layout(constant_id = SPEC_INSTANCES) const bool HAS_INSTANCES = false;
 layout(constant_id = SPEC_TEXTURES) const bool HAS_TEXTURES = false;
 layout(constant_id = SPEC_CUTOUTS) const bool HAS_CUTOUTS = false;
+
+#include "kernels/four.glsl"
 
 layout(std140, set = 0, binding = BINDING_FRAME) uniform FrameBlock
 {
@@ -40,6 +44,12 @@ SCENE_BUFFER(BINDING_MATERIALS, materialWords);
 SCENE_BUFFER(BINDING_TABLES, tableWords);
 SCENE_BUFFER(BINDING_PROBE, probeWords);
 layout(set = 0, binding = BINDING_INSTANCES) uniform utextureBuffer instanceWords;
+
+WideNode loadWideNode(uint index)
+{
+    return WideNode(FETCH(nodeWords, index * 4u), FETCH(nodeWords, index * 4u + 1u),
+                    FETCH(nodeWords, index * 4u + 2u), FETCH(nodeWords, index * 4u + 3u));
+}
 
 BvhNode loadNode(uint index)
 {

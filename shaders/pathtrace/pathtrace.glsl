@@ -1,5 +1,5 @@
 // The path tracer, in the order in which a path meets its parts. The includer provides the buffers
-// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, TRAVERSAL_ORDER, EXACT_MATH, HAS_... and the macros OUT
+// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, NODE_WIDTH, TRAVERSAL_ORDER, EXACT_MATH, HAS_... and the macros OUT
 // and INOUT; it defines SAHL_GLOSSY where it wants all materials.
 
 // Invocation-wide state.
@@ -17,6 +17,7 @@ Tally tally;             // work counted for the current sample
 uint stepsLeft;          // steps of traversal before the invocation must stop
 uint faults;             // FAULT_* seen so far
 uint stack[STACK_SIZE];  // references still to visit
+uint stackEntries[STACK_SIZE];  // NODE_WIDTH 4: where the ray enters them at the earliest, as bits
 
 CONST float RAY_INFINITY = 3.0e38f;
 
@@ -30,6 +31,8 @@ CONST float RAY_INFINITY = 3.0e38f;
 #include "pathtrace/sphere.glsl"
 #include "pathtrace/texture.glsl"
 #include "pathtrace/instance.glsl"
+#include "pathtrace/boxes.glsl"
+#include "pathtrace/wide.glsl"
 #include "pathtrace/traverse.glsl"
 #include "pathtrace/interaction.glsl"
 #include "pathtrace/normal_map.glsl"
