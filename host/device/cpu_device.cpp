@@ -16,9 +16,9 @@ namespace sahl {
 
 namespace {
 
-void refuseFaults(const PixelBlock& block)
+void refuseFaults(uint32_t faults)
 {
-    if (block.faults == 0) return;
+    if (faults == 0) return;
     throw Error(ErrorKind::deviceLost, "the CPU's traversal stack overflowed: the tree is deeper "
                                        "than the builder promises; please report this scene");
 }
@@ -58,7 +58,7 @@ public:
         AdaptivePass pass = {activePixels(), 0, 0};
         for (uint32_t i : before_) {
             const PixelBlock& block = pixels_[i].block;
-            refuseFaults(block);
+            refuseFaults(block.faults);
             pass.samples += block.samplesDone;
             pass.rays += uint64_t{block.samplesDone} + block.indirectRays + block.shadowRays;
         }
@@ -173,12 +173,22 @@ public:
         std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         statistics_.renderSeconds += seconds.count();
         statistics_.dispatches++;
-        for (const PixelBlock& block : blocks) refuseFaults(block);
+        for (const PixelBlock& block : blocks) refuseFaults(block.faults);
     }
 
     void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override
     {
         reference::renderFirstHits(scene_, tile, threads_, pixels);
+    }
+
+    double traceRays(std::span<const TraceRay> rays, bool anyHit, std::span<TraceHit> hits) override
+    {
+        auto start = std::chrono::steady_clock::now();
+        reference::traceRays(scene_, rays, anyHit, order_, threads_, hits);
+        std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        statistics_.dispatches++;
+        for (const TraceHit& hit : hits) refuseFaults(hit.faults);
+        return seconds.count();
     }
 
     std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,

@@ -4,6 +4,7 @@
 
 #include "shared/adaptive_types.h"
 #include "shared/film_types.h"
+#include "shared/ray_types.h"
 #include "shared/scene_types.h"
 
 #include <memory>
@@ -122,6 +123,12 @@ public:
     /// What the camera rays of the tile's samples meet first: rays as in render(), at most BLOCK_SIZE
     /// samples from sample 0 on. pixels.size() == width * height. Throws as render() does.
     virtual void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) = 0;
+
+    /// Traces rays through the scene: the closest hit of each, or with `anyHit` some hit, and the work
+    /// that it took. hits.size() == rays.size(). For measurements and tests. Returns the seconds that
+    /// the tracing took [s], without the way of rays and hits to and from the device.
+    /// Throws as render() does.
+    virtual double traceRays(std::span<const TraceRay> rays, bool anyHit, std::span<TraceHit> hits) = 0;
 
     /// Begins adaptive sampling of a window of the picture. The result must be gone before the next
     /// setScene() and before the device. Throws as render() does.

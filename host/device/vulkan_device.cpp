@@ -5,6 +5,7 @@
 #include "device/vulkan_adaptive.h"
 #include "device/vulkan_limits.h"
 #include "device/vulkan_scene.h"
+#include "device/vulkan_trace.h"
 #include "kernels/spirv.h"
 #include "shared/bindings.h"
 #include "vulkan/pipeline.h"
@@ -49,6 +50,7 @@ public:
     void setScene(const DeviceScene& scene) override;
     void render(const TileRequest& tile, std::span<PixelBlock> blocks) override;
     void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override;
+    double traceRays(std::span<const TraceRay> rays, bool anyHit, std::span<TraceHit> hits) override;
     std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,
                                                    const AdaptiveRule& rule) override;
     uint32_t samplerKind() const override { return samplerKind_; }
@@ -62,6 +64,7 @@ private:
     void preparePipeline(bool texel, const SceneFeatures& features, uint32_t stackSize);
     void prepareTileBuffers(size_t pixels);
     void prepareFirstHits(size_t pixels);
+    void requireStorageBuffers(uint32_t ofKernel, const char* purpose) const;
     void bindAll(ComputePipeline& pipeline);
     void renderBlocks(const TileRequest& tile, std::span<PixelBlock> blocks);
     void requireTile(const TileRequest& tile, size_t blockCount) const;
@@ -76,6 +79,7 @@ private:
     BoundedWork work_;
     ComputePipeline pipeline_;
     ComputePipeline firstHitsPipeline_;          // made when first asked for
+    ComputePipeline tracePipeline_;              // likewise
     const ComputePipeline* active_ = nullptr;    // the one of the two that dispatches use
     bool pipelineTexel_ = false;
     SceneFeatures pipelineFeatures_;
@@ -154,6 +158,7 @@ void VulkanDevice::preparePipeline(bool texel, const SceneFeatures& features, ui
     pipelineFeatures_ = features;
     firstHitsPipeline_ = {};
     firstHitsBound_ = false;
+    tracePipeline_ = {};
     adaptive_ = {};
     try {
         pipeline_ = makePipeline(features.glossy ? "path_glossy" : "path", BINDING_COUNT);
@@ -177,15 +182,20 @@ void VulkanDevice::prepareTileBuffers(size_t pixels)
     suspended_ = createBuffer(*context_, {"suspended", suspendedBytes, usage, HostUse::none});
 }
 
-void VulkanDevice::prepareFirstHits(size_t pixels)
+/// Throws noDevice where a kernel cannot bind so many storage buffers besides those of the scene.
+void VulkanDevice::requireStorageBuffers(uint32_t ofKernel, const char* purpose) const
 {
-    uint32_t storageBuffers = (pipelineTexel_ ? 0 : SCENE_BUFFER_COUNT - 1) + 3;
+    uint32_t storageBuffers = (pipelineTexel_ ? 0 : SCENE_BUFFER_COUNT - 1) + ofKernel;
     uint32_t allowed = context_->physical.properties.limits.maxPerStageDescriptorStorageBuffers;
     if (storageBuffers > allowed)
         throw Error(ErrorKind::noDevice,
-                    fmt::format("'{}' binds {} storage buffers at once; albedo, normals and the like "
-                                "need {}; try --device cpu",
-                                context_->physical.name, allowed, storageBuffers));
+                    fmt::format("'{}' binds {} storage buffers at once; {} {}; try --device cpu",
+                                context_->physical.name, allowed, purpose, storageBuffers));
+}
+
+void VulkanDevice::prepareFirstHits(size_t pixels)
+{
+    requireStorageBuffers(3, "albedo, normals and the like need");
     if (firstHitsPipeline_.name.empty())
         firstHitsPipeline_ = makePipeline("first_hits", BINDING_FIRST_HITS + 1);
     if (firstHits_.bytes >= pixels * sizeof(FirstHits)) return;
@@ -248,6 +258,19 @@ void VulkanDevice::renderFirstHits(const TileRequest& tile, std::span<FirstHits>
         recordReadBack(commands, firstHits_, pixels.size_bytes());
     });
     readBuffer(firstHits_, std::as_writable_bytes(pixels));
+}
+
+double VulkanDevice::traceRays(std::span<const TraceRay> rays, bool anyHit, std::span<TraceHit> hits)
+{
+    if (!scene_ || hits.size() != rays.size())
+        throw usageError("trace rays on '{}': {} rays, room for {} hits (scene set: {})",
+                         context_->physical.name, rays.size(), hits.size(), scene_ != nullptr);
+    requireStorageBuffers(3, "rays of the host need");
+    if (tracePipeline_.name.empty())
+        tracePipeline_ = makePipeline("trace_rays", BINDING_RAY_WALKS + 1, sizeof(TraceDispatch));
+    return traceRaysOnVulkan({*context_, tracePipeline_, *scene_, work_, statistics_, pipelineStack_,
+                              group_[0] * group_[1]},
+                             rays, anyHit, hits);
 }
 
 std::unique_ptr<AdaptivePicture> VulkanDevice::beginAdaptive(const AdaptiveWindow& window,

@@ -6,6 +6,7 @@
 #include "shared/adaptive_types.h"
 #include "shared/bindings.h"
 #include "shared/film_types.h"
+#include "shared/ray_types.h"
 #include "shared/scene_types.h"
 
 #include <glm/gtc/type_precision.hpp>
@@ -94,6 +95,18 @@ struct Kernel {
             advanceFirstHit(path, walk);
         }
         addFirstHit(path, walk, isFirst, sums);
+    }
+
+    /// What the ray meets, and the work that it takes to find out.
+    TraceHit traceRay(const TraceRay& ray, bool anyHit)
+    {
+        tally = {};
+        faults = 0;
+        Traversal walk = beginTraversal(ray.tMax);
+        do stepsLeft = 0xffffffffu;
+        while (!traverse(ray.org, ray.dir, anyHit, walk) && faults == 0);
+        return {walk.number,    walk.tHit,            walk.b1,    walk.b2,
+                tally.boxTests, tally.primitiveTests, TRACE_DONE, faults};
     }
 
     /// Renders sample `sampleIndex` of pixel (x, y), adds it to the block and returns what was added.

@@ -59,7 +59,34 @@ void renderPassInOrder(const DeviceScene& scene, const TileRequest& tile, const 
     });
 }
 
+template <uint Order, bool Instances = true, bool Textures = true>
+void traceRaysInOrder(const DeviceScene& scene, std::span<const TraceRay> rays, bool anyHit, unsigned threads,
+                      std::span<TraceHit> hits)
+{
+    constexpr size_t CHUNK = 4096;
+    parallelFor((rays.size() + CHUNK - 1) / CHUNK, threads, [&](size_t chunk) {
+        auto kernel = kernelFor<Order, Instances, Textures>(scene);
+        const size_t end = std::min(rays.size(), (chunk + 1) * CHUNK);
+        for (size_t i = chunk * CHUNK; i < end; i++) hits[i] = kernel.traceRay(rays[i], anyHit);
+    });
+}
+
 }  // namespace
+
+void traceRays(const DeviceScene& scene, std::span<const TraceRay> rays, bool anyHit, uint order,
+               unsigned threads, std::span<TraceHit> hits)
+{
+    switch (order) {
+    case ORDER_LEFT_FIRST: return traceRaysInOrder<ORDER_LEFT_FIRST>(scene, rays, anyHit, threads, hits);
+    case ORDER_RIGHT_FIRST: return traceRaysInOrder<ORDER_RIGHT_FIRST>(scene, rays, anyHit, threads, hits);
+    default: break;
+    }
+    if (!scene.textures.empty())
+        return traceRaysInOrder<ORDER_NEAR_FIRST>(scene, rays, anyHit, threads, hits);
+    if (scene.instances.empty())
+        return traceRaysInOrder<ORDER_NEAR_FIRST, false, false>(scene, rays, anyHit, threads, hits);
+    traceRaysInOrder<ORDER_NEAR_FIRST, true, false>(scene, rays, anyHit, threads, hits);
+}
 
 void renderAdaptivePass(const DeviceScene& scene, const TileRequest& tile, const AdaptiveRule& rule,
                         uint pass, uint order, unsigned threads, std::span<const uint32_t> queue,

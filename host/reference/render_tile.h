@@ -13,6 +13,10 @@ void renderTile(const DeviceScene& scene, const TileRequest& tile, uint order, u
 void renderFirstHits(const DeviceScene& scene, const TileRequest& tile, unsigned threads,
                      std::span<FirstHits> pixels);
 
+/// See Device::traceRays.
+void traceRays(const DeviceScene& scene, std::span<const TraceRay> rays, bool anyHit, uint order,
+               unsigned threads, std::span<TraceHit> hits);
+
 /// Pass `pass` of adaptive sampling over the pixels of `queue`, each counted within the tile: see
 /// AdaptiveTile::runPass. `pixels` are those of the whole tile; blocks of the pass before are in the film.
 void renderAdaptivePass(const DeviceScene& scene, const TileRequest& tile, const AdaptiveRule& rule,
