@@ -130,6 +130,24 @@ public:
         return tree;
     }
 
+    /// Largest coordinate of the surfaces on which rays may start [m].
+    double reachOfWorld(uint rootRef) const
+    {
+        Box box;
+        if (isInner(rootRef)) {
+            for (const Child& child : childrenOf(nodes_[rootRef])) grow(box, child.box);
+        } else if (isInstance(rootRef)) {
+            const ObjectInstance& instance = instances_[rootRef & ~REF_INSTANCE];
+            box = {instance.lo, instance.hi};
+        } else {
+            return 0;
+        }
+        double largest = 0;
+        for (int i = 0; i < 3; i++)
+            largest = std::max({largest, std::abs(double{box.lo[i]}), std::abs(double{box.hi[i]})});
+        return largest;
+    }
+
     std::map<uint, Tree> objects;  ///< by rootRef of the binary tree
 
 private:
@@ -198,6 +216,7 @@ WideTrees widen(std::span<const BvhNode> nodes, std::span<const ObjectInstance> 
     WideTrees result;
     Widening widening(nodes, instances, result);
     result.nodes.reserve(nodes.size() / 2 + 1);
+    reach = std::max(reach, widening.reachOfWorld(rootRef));
     std::map<uint, double> reaches;
     for (const ObjectInstance& instance : instances) {
         double& largest = reaches[instance.rootRef];

@@ -17,7 +17,6 @@ Tally tally;             // work counted for the current sample
 uint stepsLeft;          // steps of traversal before the invocation must stop
 uint faults;             // FAULT_* seen so far
 uint stack[STACK_SIZE];  // references still to visit
-uint stackEntries[STACK_SIZE];  // NODE_WIDTH 4: where the ray enters them at the earliest, as bits
 
 CONST float RAY_INFINITY = 3.0e38f;
 
@@ -32,6 +31,7 @@ CONST float RAY_INFINITY = 3.0e38f;
 #include "pathtrace/texture.glsl"
 #include "pathtrace/instance.glsl"
 #include "pathtrace/boxes.glsl"
+#include "pathtrace/stack.glsl"
 #include "pathtrace/wide.glsl"
 #include "pathtrace/traverse.glsl"
 #include "pathtrace/interaction.glsl"

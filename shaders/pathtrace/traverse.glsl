@@ -148,25 +148,6 @@ void visitPrimitive(WalkRay ray, uint slot, INOUT(Traversal) walk)
     }
 }
 
-void pushRef(uint ref, INOUT(Traversal) walk)
-{
-    if (walk.stackSize < STACK_SIZE) {
-        stack[walk.stackSize] = ref;
-        if (NODE_WIDTH == 4u) stackEntries[walk.stackSize] = 0u;
-        walk.stackSize++;
-    } else {
-        faults |= FAULT_STACK_OVERFLOW;
-    }
-}
-
-uint popRef(INOUT(Traversal) walk)
-{
-    if (NODE_WIDTH == 4u) return popNearRef(walk);
-    if (walk.stackSize == 0u) return REF_NONE;
-    walk.stackSize--;
-    return stack[walk.stackSize];
-}
-
 /// Visits an inner node: returns the child to visit next and pushes the other one, if it is met too.
 uint visitNode(BoxRay boxes, INOUT(Traversal) walk)
 {

@@ -76,20 +76,7 @@ uint childOf(READ(WideNode) node, uint key)
 void pushChild(READ(WideNode) node, uint key, INOUT(Traversal) walk)
 {
     stack[walk.stackSize] = childOf(node, key);
-    stackEntries[walk.stackSize] = key & ~3u;
     walk.stackSize += key != WIDE_MISS ? 1u : 0u;
-}
-
-/// Takes what was pushed last and is not entered behind the closest hit.
-uint popNearRef(INOUT(Traversal) walk)
-{
-    uint ref = REF_NONE;
-    while (walk.stackSize != 0u && ref == REF_NONE) {
-        walk.stackSize--;
-        if (stackEntries[walk.stackSize] <= floatBitsToUint(walk.tHit)) ref = stack[walk.stackSize];
-    }
-    if (walk.stackSize != 0u && ref == REF_NONE) faults |= FAULT_LOOP_CUT;
-    return ref;
 }
 
 /// Visits an inner node of the wide tree: returns the child to visit next, the nearest one that is met, and
@@ -114,6 +101,6 @@ uint visitWideNode(BoxRay ray, INOUT(Traversal) walk)
     pushChild(node, greaterUint(b, d), walk);
     pushChild(node, greaterUint(e, f), walk);
     pushChild(node, lesserUint(e, f), walk);
-    if (first == WIDE_MISS) return popNearRef(walk);
+    if (first == WIDE_MISS) return popRef(walk);
     return childOf(node, first);
 }

@@ -72,6 +72,7 @@ void main()
     put(f.ambient); put(f.shading);
     put(f.samplerKind); put(f.rouletteDepth); put(f.clampIndirect); put(f.lightSampling);
     put(f.choiceCount); put(f.lightPerPower); put(f.probeChance); put(f.unused0);
+    put(f.gridAt); put(f.gridScale);
     put(f.lightsAt); put(f.aliasAt); put(f.texturesAt); put(f.textureTexelsAt);
     PixelBlock b = blocks[1];
     put(b.sum); put(b.sumY2); put(b.digest); put(b.samplesDone); put(b.status); put(b.badSamples);
