@@ -50,7 +50,8 @@ double upperPlane(float x, int step)
     return std::ceil(std::ldexp(double{x}, -step));
 }
 
-/// The finest grid that holds [lo, hi] and origins up to `reach`; nothing where a step would be too large.
+/// The finest grid that holds [lo, hi] and origins up to `reach`; nothing where a step would be too
+/// large.
 std::optional<Axis> axisOver(float lo, float hi, double reach)
 {
     // frexp: x < 2^exponent
@@ -75,8 +76,8 @@ uint planesOf(const Axis& axis, float lo, float hi)
     return lower | upper << 16;
 }
 
-/// What is below a node: its children, then in place of the inner one with the largest surface its own two,
-/// as long as there is room.
+/// What is below a node: its children, then in place of the inner one with the largest surface its
+/// own two, as long as there is room.
 std::vector<Child> collapse(std::span<const BvhNode> nodes, uint ref)
 {
     const auto two = childrenOf(nodes[ref]);
@@ -100,7 +101,8 @@ std::vector<Child> collapse(std::span<const BvhNode> nodes, uint ref)
 
 class Widening {
 public:
-    Widening(std::span<const BvhNode> nodes, std::span<const ObjectInstance> instances, WideTrees& result)
+    Widening(std::span<const BvhNode> nodes, std::span<const ObjectInstance> instances,
+             WideTrees& result)
         : nodes_(nodes), instances_(instances), result_(result)
     {
     }
@@ -111,7 +113,8 @@ public:
         uint pending = 0;
     };
 
-    /// Nothing where no grid fits. Objects first: their trees are asked for by those with instances.
+    /// Nothing where no grid fits. Objects first: their trees are asked for by those with
+    /// instances.
     std::optional<Tree> addTree(uint rootRef, double reach)
     {
         Tree tree = {rootRef, {}, 0};
@@ -180,7 +183,10 @@ private:
 
     static bool isInstance(uint ref) { return (ref & REF_NOT_INNER) == REF_INSTANCE; }
 
-    const Tree& objectOf(uint ref) const { return objects.at(instances_[ref & ~REF_INSTANCE].rootRef); }
+    const Tree& objectOf(uint ref) const
+    {
+        return objects.at(instances_[ref & ~REF_INSTANCE].rootRef);
+    }
 
     std::span<const BvhNode> nodes_;
     std::span<const ObjectInstance> instances_;
@@ -189,12 +195,15 @@ private:
 
 vec3 gridAtOf(const Grid& grid)
 {
-    return {static_cast<float>(grid[0].at), static_cast<float>(grid[1].at), static_cast<float>(grid[2].at)};
+    return {static_cast<float>(grid[0].at), static_cast<float>(grid[1].at),
+            static_cast<float>(grid[2].at)};
 }
 
 uint gridScaleOf(const Grid& grid)
 {
-    const auto byte = [&](size_t i) { return static_cast<uint>(grid[i].step + static_cast<int>(GRID_BIAS)); };
+    const auto byte = [&](size_t i) {
+        return static_cast<uint>(grid[i].step + static_cast<int>(GRID_BIAS));
+    };
     return byte(0) | byte(1) << 8 | byte(2) << 16;
 }
 
@@ -210,8 +219,8 @@ double reachInside(const ObjectInstance& instance, double reach)
 
 }  // namespace
 
-WideTrees widen(std::span<const BvhNode> nodes, std::span<const ObjectInstance> instances, uint rootRef,
-                double reach)
+WideTrees widen(std::span<const BvhNode> nodes, std::span<const ObjectInstance> instances,
+                uint rootRef, double reach)
 {
     WideTrees result;
     Widening widening(nodes, instances, result);

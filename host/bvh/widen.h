@@ -1,5 +1,5 @@
-// The wide tree that rays walk: the builder's binary tree collapsed to nodes of four children with boxes of 16
-// bits (WideNode). Made when a scene is prepared, never saved.
+// The wide tree that rays walk: the builder's binary tree collapsed to nodes of four children with
+// boxes of 16 bits (WideNode). Made when a scene is prepared, never saved.
 #pragma once
 
 #include "shared/scene_types.h"
@@ -21,9 +21,9 @@ struct WideTrees {
 
 /// Collapses trees that are sound (bvh.h). The result depends on the arguments alone.
 ///   reach  no ray of the world starts at a coordinate beyond it [m]
-/// Empty, without any node, where the numbers of a grid would leave the range of float32 (scenes larger than
-/// 2^56 m): those are walked in the binary tree.
-WideTrees widen(std::span<const BvhNode> nodes, std::span<const ObjectInstance> instances, uint rootRef,
-                double reach);
+/// Empty, without any node, where the numbers of a grid would leave the range of float32 (scenes
+/// larger than 2^56 m): those are walked in the binary tree.
+WideTrees widen(std::span<const BvhNode> nodes, std::span<const ObjectInstance> instances,
+                uint rootRef, double reach);
 
 }  // namespace sahl

@@ -5,11 +5,12 @@
 
 namespace sahl {
 
-/// Entries that a stack needs beyond those that can wait: a wide node writes three at once (pathtrace/wide.glsl).
+/// Entries that a stack needs beyond those that can wait: a wide node writes three at once
+/// (pathtrace/wide.glsl).
 constexpr uint32_t WIDE_STACK_SLACK = 2;
 
-/// NODE_WIDTH of the kernels for a scene: `wanted`, but 2 where there is no wide tree, or none that the largest
-/// stack is enough for.
+/// NODE_WIDTH of the kernels for a scene: `wanted`, but 2 where there is no wide tree, or none that
+/// the largest stack is enough for.
 inline uint32_t nodeWidthFor(const DeviceScene& scene, uint32_t wanted)
 {
     const bool fits = scene.wide.worstPending + WIDE_STACK_SLACK <= MAX_STACK_SIZE;

@@ -1,5 +1,5 @@
-// Four numbers side by side, for the boxes of a wide node: the vectors of gcc and clang, of which every machine
-// makes its own instructions. shaders/kernels/four.glsl has the same for devices.
+// Four numbers side by side, for the boxes of a wide node: the vectors of gcc and clang, of which
+// every machine makes its own instructions. shaders/kernels/four.glsl has the same for devices.
 #pragma once
 
 #include "shared/scene_types.h"

@@ -38,11 +38,15 @@ template <uint Width, class Action>
 void withKernelOfWidth(const DeviceScene& scene, uint order, Action action)
 {
     switch (order) {
-    case ORDER_LEFT_FIRST: return action(KernelType<Kernel<ORDER_LEFT_FIRST, true, true, Width>>{});
-    case ORDER_RIGHT_FIRST: return action(KernelType<Kernel<ORDER_RIGHT_FIRST, true, true, Width>>{});
-    default: break;
+    case ORDER_LEFT_FIRST:
+        return action(KernelType<Kernel<ORDER_LEFT_FIRST, true, true, Width>>{});
+    case ORDER_RIGHT_FIRST:
+        return action(KernelType<Kernel<ORDER_RIGHT_FIRST, true, true, Width>>{});
+    default:
+        break;
     }
-    if (!scene.textures.empty()) return action(KernelType<Kernel<ORDER_NEAR_FIRST, true, true, Width>>{});
+    if (!scene.textures.empty())
+        return action(KernelType<Kernel<ORDER_NEAR_FIRST, true, true, Width>>{});
     if (scene.instances.empty())
         return action(KernelType<Kernel<ORDER_NEAR_FIRST, false, false, Width>>{});
     action(KernelType<Kernel<ORDER_NEAR_FIRST, true, false, Width>>{});
@@ -60,8 +64,8 @@ void withKernel(const DeviceScene& scene, const Walk& walk, Action action)
 
 }  // namespace
 
-void traceRays(const DeviceScene& scene, std::span<const TraceRay> rays, bool anyHit, const Walk& walk,
-               unsigned threads, std::span<TraceHit> hits)
+void traceRays(const DeviceScene& scene, std::span<const TraceRay> rays, bool anyHit,
+               const Walk& walk, unsigned threads, std::span<TraceHit> hits)
 {
     constexpr size_t CHUNK = 4096;
     withKernel(scene, walk, [&]<class Type>(Type) {
@@ -74,8 +78,8 @@ void traceRays(const DeviceScene& scene, std::span<const TraceRay> rays, bool an
 }
 
 void renderAdaptivePass(const DeviceScene& scene, const TileRequest& tile, const AdaptiveRule& rule,
-                        uint pass, const Walk& walk, unsigned threads, std::span<const uint32_t> queue,
-                        std::span<AdaptivePixel> pixels)
+                        uint pass, const Walk& walk, unsigned threads,
+                        std::span<const uint32_t> queue, std::span<AdaptivePixel> pixels)
 {
     constexpr size_t CHUNK = 64;  // pixels, since making a kernel is not free
     withKernel(scene, walk, [&]<class Type>(Type) {
@@ -83,7 +87,8 @@ void renderAdaptivePass(const DeviceScene& scene, const TileRequest& tile, const
             auto kernel = kernelFor<typename Type::Kernel>(scene);
             size_t first = chunk * CHUNK;
             for (uint32_t i : queue.subspan(first, std::min(CHUNK, queue.size() - first))) {
-                kernel.renderBlock(tile.x + i % tile.width, tile.y + i / tile.width, pass, rule, pixels[i]);
+                kernel.renderBlock(tile.x + i % tile.width, tile.y + i / tile.width, pass, rule,
+                                   pixels[i]);
             }
         });
     });
@@ -98,8 +103,8 @@ void foldBlocks(std::span<const uint32_t> queue, std::span<AdaptivePixel> pixels
     }
 }
 
-void estimatePixels(const AdaptiveRule& rule, const EstimatesView& view, std::span<const uint32_t> queue,
-                    std::span<const AdaptivePixel> pixels)
+void estimatePixels(const AdaptiveRule& rule, const EstimatesView& view,
+                    std::span<const uint32_t> queue, std::span<const AdaptivePixel> pixels)
 {
     Kernel<> kernel = {};
     for (uint32_t i : queue) {
@@ -134,7 +139,8 @@ void decidePixels(const AdaptiveRule& rule, const AdaptiveFloors& floors, uint p
     }
 }
 
-std::vector<uint32_t> advanceHalves(const AdaptiveRule& rule, uint pass, std::span<const uint32_t> queue,
+std::vector<uint32_t> advanceHalves(const AdaptiveRule& rule, uint pass,
+                                    std::span<const uint32_t> queue,
                                     std::span<AdaptivePixel> pixels)
 {
     Kernel<> kernel = {};
@@ -147,7 +153,8 @@ std::vector<uint32_t> advanceHalves(const AdaptiveRule& rule, uint pass, std::sp
     return goingOn;
 }
 
-std::vector<uint32_t> takersOf(const AdaptiveRule& rule, uint pass, std::span<const AdaptivePixel> pixels)
+std::vector<uint32_t> takersOf(const AdaptiveRule& rule, uint pass,
+                               std::span<const AdaptivePixel> pixels)
 {
     Kernel<> kernel = {};
     std::vector<uint32_t> takers;
@@ -160,8 +167,8 @@ std::vector<uint32_t> takersOf(const AdaptiveRule& rule, uint pass, std::span<co
     return takers;
 }
 
-void renderFirstHits(const DeviceScene& scene, const TileRequest& tile, const Walk& walk, unsigned threads,
-                     std::span<FirstHits> pixels)
+void renderFirstHits(const DeviceScene& scene, const TileRequest& tile, const Walk& walk,
+                     unsigned threads, std::span<FirstHits> pixels)
 {
     withKernel(scene, walk, [&]<class Type>(Type) {
         parallelFor(tile.height, threads, [&](size_t row) {
@@ -178,8 +185,8 @@ void renderFirstHits(const DeviceScene& scene, const TileRequest& tile, const Wa
     });
 }
 
-void renderTile(const DeviceScene& scene, const TileRequest& tile, const Walk& walk, unsigned threads,
-                std::span<PixelBlock> blocks)
+void renderTile(const DeviceScene& scene, const TileRequest& tile, const Walk& walk,
+                unsigned threads, std::span<PixelBlock> blocks)
 {
     withKernel(scene, walk, [&]<class Type>(Type) {
         parallelFor(tile.height, threads, [&](size_t row) {

@@ -144,8 +144,8 @@ ObjectInstance loadInstance(uint index)
     uvec4 h = texelFetch(instanceWords, at + 7);
     uvec4 i = texelFetch(instanceWords, at + 8);
     return ObjectInstance(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w,
-                    uintBitsToFloat(c.xyz), c.w, uintBitsToFloat(d.xyz), d.w,
-                    uintBitsToFloat(e.xyz), e.w, uintBitsToFloat(f.xyz), f.w,
+                    uintBitsToFloat(c.xyz), c.w, uintBitsToFloat(d.xyz), uintBitsToFloat(d.w),
+                    uintBitsToFloat(e.xyz), uintBitsToFloat(e.w), uintBitsToFloat(f.xyz), uintBitsToFloat(f.w),
                     uintBitsToFloat(g.xyz), g.w, uintBitsToFloat(h.xyz), h.w,
                     uintBitsToFloat(i.xyz), i.w);
 }

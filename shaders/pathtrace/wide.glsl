@@ -55,7 +55,8 @@ FourUints intersectFour(BoxRay ray, READ(WideNode) node, float tMax)
     Four leave = lesser4(lesser4(greater4(ax, bx), greater4(ay, by)), lesser4(greater4(az, bz), fours(tMax)));
     FourUints number = fourUints(uvec4(0u, 1u, 2u, 3u));
     if (TRAVERSAL_ORDER == ORDER_RIGHT_FIRST) number = fourUints(uvec4(3u, 2u, 1u, 0u));
-    FourUints key = (bitsOf(entry) & ~3u) | number;
+    // Without the sign: zero has either, and not the same on all devices
+    FourUints key = (bitsOf(entry) & 0x7ffffffcu) | number;
     if (TRAVERSAL_ORDER != ORDER_NEAR_FIRST) key = number;
     return key | ~allBitsWhere(entry, leave) | allBitsWhereNone(fourUints(node.refs));
 }

@@ -1,5 +1,5 @@
-// What every wide tree must be, whatever the binary one: it encloses, reaches everything once, and says how much
-// may wait on the stack.
+// What every wide tree must be, whatever the binary one: it encloses, reaches everything once, and
+// says how much may wait on the stack.
 #include "bvh/box.h"
 #include "bvh/instances.h"
 #include "bvh/widen.h"
@@ -28,7 +28,10 @@ struct DoubleBox {
 class Walk {
 public:
     Walk(const WideTrees& wide, std::span<const Primitive> primitives)
-        : wide_(wide), primitives_(primitives), seen_(primitives.size(), 0), visited_(wide.nodes.size(), 0)
+        : wide_(wide),
+          primitives_(primitives),
+          seen_(primitives.size(), 0),
+          visited_(wide.nodes.size(), 0)
     {
     }
 
@@ -69,7 +72,8 @@ private:
         const uint words[3] = {node.x[child], node.y[child], node.z[child]};
         DoubleBox box;
         for (int axis = 0; axis < 3; axis++) {
-            const int step = static_cast<int>((gridScale >> 8 * axis) & 0xff) - static_cast<int>(GRID_BIAS);
+            const int step =
+                static_cast<int>((gridScale >> 8 * axis) & 0xff) - static_cast<int>(GRID_BIAS);
             const auto planeOf = [&](uint q) { return std::ldexp(double{gridAt[axis]} + q, step); };
             box.lo[axis] = planeOf(words[axis] & 0xffff);
             box.hi[axis] = planeOf(words[axis] >> 16);
@@ -81,7 +85,8 @@ private:
     {
         bool result = true;
         for (int axis = 0; axis < 3; axis++)
-            result = result && outer.lo[axis] <= double{inner.lo[axis]} && outer.hi[axis] >= double{inner.hi[axis]};
+            result = result && outer.lo[axis] <= double{inner.lo[axis]} &&
+                     outer.hi[axis] >= double{inner.hi[axis]};
         return result;
     }
 
@@ -132,7 +137,8 @@ std::vector<Primitive> anything(uint count)
     Random random(5);
     std::vector<Primitive> primitives = randomSoup(count, 0.1f, 6);
     for (uint i = 0; i < count / 4; i++)
-        addSphere(primitives, random.inCube(1), std::ldexp(1 + random.uniform(), -static_cast<int>(random.below(30))));
+        addSphere(primitives, random.inCube(1),
+                  std::ldexp(1 + random.uniform(), -static_cast<int>(random.below(30))));
     return primitives;
 }
 
@@ -171,7 +177,8 @@ TEST(WideTree, ofFlatAndOfCoincidentPrimitivesIsSound)
 TEST(WideTree, isTheSameEachTime)
 {
     const Bvh bvh = buildBvh(anything(500), BvhBuild::sweep, 1);
-    const WideTrees a = widen(bvh.nodes, {}, bvh.rootRef, 1), b = widen(bvh.nodes, {}, bvh.rootRef, 1);
+    const WideTrees a = widen(bvh.nodes, {}, bvh.rootRef, 1),
+                    b = widen(bvh.nodes, {}, bvh.rootRef, 1);
     ASSERT_EQ(a.nodes.size(), b.nodes.size());
     EXPECT_EQ(std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(WideNode)), 0);
 }
@@ -191,7 +198,8 @@ TEST(WideTree, ofNothingAndOfOneLeafHasNoNodes)
 /// Two kinds of objects: of one leaf, and of a tree.
 TEST(WideTree, ofInstancesReachesTheTreesOfTheirObjects)
 {
-    const std::vector<std::vector<Primitive>> objects = {randomSoup(300, 0.1f, 8), randomSoup(1, 0.1f, 9)};
+    const std::vector<std::vector<Primitive>> objects = {randomSoup(300, 0.1f, 8),
+                                                         randomSoup(1, 0.1f, 9)};
     std::vector<Placement> placements;
     for (uint i = 0; i < 9; i++) {
         Placement placement;
@@ -199,7 +207,8 @@ TEST(WideTree, ofInstancesReachesTheTreesOfTheirObjects)
         placement.object = i % 2;
         placements.push_back(placement);
     }
-    const Bvh bvh = buildTwoLevels(randomSoup(50, 0.1f, 10), objects, placements, 1, BvhBuild::sweep, 1);
+    const Bvh bvh =
+        buildTwoLevels(randomSoup(50, 0.1f, 10), objects, placements, 1, BvhBuild::sweep, 1);
     const WideTrees wide = widen(bvh.nodes, bvh.instances, bvh.rootRef, 1);
     ASSERT_EQ(wide.instances.size(), placements.size());
     uint pending = 0;
