@@ -1,13 +1,13 @@
 // The Device that runs the path tracing kernels on Vulkan.
 #include "device/bounded_work.h"
 #include "device/exact_math.h"
+#include "device/kernels.h"
 #include "device/scene_features.h"
 #include "device/vulkan_adaptive.h"
 #include "device/vulkan_limits.h"
 #include "device/vulkan_scene.h"
 #include "device/vulkan_trace.h"
 #include "device/walked_tree.h"
-#include "kernels/spirv.h"
 #include "shared/bindings.h"
 #include "vulkan/pipeline.h"
 
@@ -62,7 +62,7 @@ public:
 private:
     ComputePipeline makePipeline(const std::string& kernel, uint32_t bindingCount,
                                  uint32_t pushConstantBytes = sizeof(Dispatch)) const;
-    void preparePipeline(bool texel, const SceneFeatures& features, uint32_t stackSize, uint32_t nodeWidth);
+    void preparePipeline(bool texel, uint32_t features, uint32_t stackSize, uint32_t nodeWidth);
     void prepareTileBuffers(size_t pixels);
     void prepareFirstHits(size_t pixels);
     void requireStorageBuffers(uint32_t ofKernel, const char* purpose) const;
@@ -83,7 +83,7 @@ private:
     ComputePipeline tracePipeline_;              // likewise
     const ComputePipeline* active_ = nullptr;    // the one of the two that dispatches use
     bool pipelineTexel_ = false;
-    SceneFeatures pipelineFeatures_;
+    uint32_t pipelineFeatures_ = 0;
     uint32_t pipelineStack_ = 0;  // 0: no pipeline yet
     uint32_t pipelineNodeWidth_ = 0;
     std::unique_ptr<VulkanScene> scene_;
@@ -133,7 +133,6 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
 {
     PipelineRequest request;
     request.name = kernel + (pipelineTexel_ ? "_texel" : "_storage");
-    request.spirv = kernelSpirv(request.name);
     request.bindings.assign(SCENE_BUFFER_COUNT, pipelineTexel_
                                                     ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
                                                     : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
@@ -141,21 +140,19 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     request.bindings.resize(bindingCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     request.bindings[BINDING_FRAME] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     request.pushConstantBytes = pushConstantBytes;
-    request.specialisation.resize(SPEC_COUNT);
-    request.specialisation[SPEC_GROUP_WIDTH] = group_[0];
-    request.specialisation[SPEC_GROUP_HEIGHT] = group_[1];
-    request.specialisation[SPEC_STACK_SIZE] = pipelineStack_;
-    request.specialisation[SPEC_NODE_WIDTH] = pipelineNodeWidth_;
-    request.specialisation[SPEC_ORDER] = options_.traversalOrder;
-    request.specialisation[SPEC_EXACT_MATH] = statistics_.exactMath ? 1 : 0;
-    request.specialisation[SPEC_INSTANCES] = pipelineFeatures_.instances ? 1 : 0;
-    request.specialisation[SPEC_TEXTURES] = pipelineFeatures_.textures ? 1 : 0;
-    request.specialisation[SPEC_CUTOUTS] = pipelineFeatures_.cutouts ? 1 : 0;
+    std::vector<uint32_t> constants(SPEC_COUNT);
+    constants[SPEC_GROUP_WIDTH] = group_[0];
+    constants[SPEC_GROUP_HEIGHT] = group_[1];
+    constants[SPEC_STACK_SIZE] = pipelineStack_;
+    constants[SPEC_NODE_WIDTH] = pipelineNodeWidth_;
+    constants[SPEC_ORDER] = options_.traversalOrder;
+    constants[SPEC_EXACT_MATH] = statistics_.exactMath ? 1 : 0;
+    constants[SPEC_FEATURES] = pipelineFeatures_;
+    request.spirv = foldedKernel(request.name, constants);
     return createComputePipeline(*context_, request);
 }
 
-void VulkanDevice::preparePipeline(bool texel, const SceneFeatures& features, uint32_t stackSize,
-                                   uint32_t nodeWidth)
+void VulkanDevice::preparePipeline(bool texel, uint32_t features, uint32_t stackSize, uint32_t nodeWidth)
 {
     if (pipelineStack_ == stackSize && pipelineTexel_ == texel && pipelineFeatures_ == features &&
         pipelineNodeWidth_ == nodeWidth)
@@ -169,7 +166,7 @@ void VulkanDevice::preparePipeline(bool texel, const SceneFeatures& features, ui
     tracePipeline_ = {};
     adaptive_ = {};
     try {
-        pipeline_ = makePipeline(features.glossy ? "path_glossy" : "path", BINDING_COUNT);
+        pipeline_ = makePipeline("path", BINDING_COUNT);
     } catch (...) {
         pipelineStack_ = 0;
         throw;
@@ -286,9 +283,7 @@ std::unique_ptr<AdaptivePicture> VulkanDevice::beginAdaptive(const AdaptiveWindo
 {
     if (!scene_) throw usageError("adaptive sampling on '{}' without a scene", context_->physical.name);
     if (!adaptive_) {
-        const bool glossy = pipelineFeatures_.glossy;
-        ComputePipeline path = makePipeline(glossy ? "adaptive_path_glossy" : "adaptive_path",
-                                            BINDING_COUNT, sizeof(AdaptiveDispatch));
+        ComputePipeline path = makePipeline("adaptive_path", BINDING_COUNT, sizeof(AdaptiveDispatch));
         adaptive_ = std::make_unique<AdaptivePipelines>(
             makeAdaptivePipelines(*context_, std::move(path), group_, statistics_.exactMath));
     }

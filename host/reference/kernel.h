@@ -5,6 +5,7 @@
 #include "reference/four.h"
 #include "shared/adaptive_types.h"
 #include "shared/bindings.h"
+#include "shared/features.h"
 #include "shared/film_types.h"
 #include "shared/ray_types.h"
 #include "shared/scene_types.h"
@@ -13,7 +14,6 @@
 
 #include <span>
 
-#define SAHL_GLOSSY
 #define CONST static constexpr
 #define OUT(T) T&
 #define INOUT(T) T&
@@ -30,9 +30,8 @@ struct Kernel {
     static constexpr uint STACK_SIZE = MAX_STACK_SIZE;
     static constexpr uint NODE_WIDTH = NodeWidth;
     static constexpr uint TRAVERSAL_ORDER = Order;
-    static constexpr bool HAS_INSTANCES = Instances;
-    static constexpr bool HAS_TEXTURES = Textures;
-    static constexpr bool HAS_CUTOUTS = Textures;
+    static constexpr uint FEATURES = FEATURES_ALL & ~(Instances ? 0u : FEATURE_INSTANCES) &
+                                     ~(Textures ? 0u : FEATURE_TEXTURES | FEATURE_CUTOUTS);
     static constexpr bool EXACT_MATH = false;  // C++ divides and takes roots exactly anyway
 
     std::span<const BvhNode> nodes;

@@ -1,7 +1,5 @@
 // What a kernel provides to the path tracer's text: buffers behind accessors, and the frame.
 // SAHL_TEXEL_BUFFERS chooses uniform texel buffers; otherwise the scene is read from storage buffers.
-// SAHL_GLOSSY is for scenes with materials from MATERIAL_ROUGH_CONDUCTOR on: a kernel of its own, as some
-// drivers compile and run all branches, whatever a specialisation constant says.
 
 #define CONST const
 #define OUT(T) out T
@@ -9,6 +7,7 @@
 #define READ(T) T
 
 #include "shared/bindings.h"
+#include "shared/features.h"
 #include "shared/film_types.h"
 #include "shared/scene_types.h"
 
@@ -16,9 +15,7 @@ layout(constant_id = SPEC_STACK_SIZE) const uint STACK_SIZE = 64u;
 layout(constant_id = SPEC_NODE_WIDTH) const uint NODE_WIDTH = 2u;
 layout(constant_id = SPEC_ORDER) const uint TRAVERSAL_ORDER = ORDER_NEAR_FIRST;
 layout(constant_id = SPEC_EXACT_MATH) const bool EXACT_MATH = false;
-layout(constant_id = SPEC_INSTANCES) const bool HAS_INSTANCES = false;
-layout(constant_id = SPEC_TEXTURES) const bool HAS_TEXTURES = false;
-layout(constant_id = SPEC_CUTOUTS) const bool HAS_CUTOUTS = false;
+layout(constant_id = SPEC_FEATURES) const uint FEATURES = FEATURES_ALL;
 
 #include "kernels/four.glsl"
 

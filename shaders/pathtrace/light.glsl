@@ -69,7 +69,7 @@ LightSample sampleShapeLight(Light light, SurfaceInteraction isect, float u1, fl
     Material material = loadMaterial(ofInstance != NO_MATERIAL ? ofInstance : shape.material);
     float perArea = lightPerArea(material);
     ShapeSample ss;
-    if (light.type == LIGHT_SPHERE) {
+    if (HAS_SPHERES && light.type == LIGHT_SPHERE) {
         ss = sampleSphereLight(perArea, shape, light.instance, isect, u1, u2);
     } else {
         ss = sampleTriangleLight(perArea, shape, light.instance, ofInstance, isect, u1, u2);
@@ -96,10 +96,11 @@ LightSample sampleLight(SurfaceInteraction isect, float u, uvec4 bits)
     float u1 = unitFloat(bits.y);
     float u2 = unitFloat(bits.z);
     uint finer = ((bits.y & 255u) | ((bits.z & 255u) << 8u)) | ((bits.w & 255u) << 16u);
-    if (u < frame.probeChance) return sampleProbeLight(bits.x, finer, u1, u2);
-    if (frame.choiceCount == 0u) return noLight();
+    if (HAS_PROBE_LIGHT && u < frame.probeChance) return sampleProbeLight(bits.x, finer, u1, u2);
+    if ((!HAS_FAR_LIGHTS && !HAS_SHAPE_LIGHTS) || frame.choiceCount == 0u) return noLight();
     Light light = loadLight(chooseByAlias(0u, frame.choiceCount, bits.x, finer));
-    if (light.type >= LIGHT_TRIANGLE) return sampleShapeLight(light, isect, u1, u2);
+    if (HAS_SHAPE_LIGHTS && (!HAS_FAR_LIGHTS || light.type >= LIGHT_TRIANGLE))
+        return sampleShapeLight(light, isect, u1, u2);
     LightSample ls = illuminate(light, isect.p);
     ls.Li = flushed3(ls.Li * quotient(1.0f, light.chance));
     return ls;

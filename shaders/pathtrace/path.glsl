@@ -57,6 +57,7 @@ Traversal beginPathTraversal(PathState path)
 bool sampleDirectLight(Material material, SurfaceInteraction isect, uint dimension, float u,
                        INOUT(PathState) path)
 {
+    if (!HAS_FAR_LIGHTS && !HAS_SHAPE_LIGHTS && !HAS_PROBE_LIGHT) return false;
     if (frame.choiceCount == 0u && !(frame.probeChance > 0.0f)) return false;
     uvec4 bits = randomBits4(path.pixel, path.sampleIndex, dimension + DIMENSION_LIGHT);
     LightSample ls = sampleLight(isect, u, bits);
@@ -104,7 +105,7 @@ void seeEmission(SurfaceInteraction isect, Material material, Traversal hit, INO
 {
     if (!(maxComponent(material.emission) > 0.0f)) return;
     float weight = 1.0f;
-    if (path.pdf > 0.0f) {
+    if (HAS_SHAPE_LIGHTS && path.pdf > 0.0f) {
         weight = weightOfScattering(path.pdf, pdfShapeLight(hit, isect, path.org, path.dir));
     }
     gather(path.beta * material.emission * weight, path.depth, path);
@@ -144,7 +145,7 @@ void shadePath(Traversal hit, INOUT(PathState) path)
         SurfaceInteraction isect = interactionAt(hit, path.org, path.dir);
         Material material = texturedMaterial(loadMaterial(isect.material), isect.u, isect.v);
         isect = bumpedInteraction(material, hit, isect);
-        if (frame.integrator == INTEGRATOR_PHONG) {
+        if (HAS_PHONG && (!HAS_PATHS || frame.integrator == INTEGRATOR_PHONG)) {
             shadePhong(isect, material, hit, path);
         } else {
             lobe = shadeSurface(isect, material, hit, path);
@@ -160,7 +161,7 @@ void finishShadow(Traversal hit, INOUT(PathState) path)
 {
     uint blocked = hit.slot != NO_HIT ? 1u : 0u;
     path.digest += digestOf(blocked, 0u, path.depth, DIGEST_SHADOW);
-    bool phong = frame.integrator == INTEGRATOR_PHONG;
+    bool phong = HAS_PHONG && frame.integrator == INTEGRATOR_PHONG;
     if (blocked == 0u) gather(path.Ld, phong ? 1u : path.depth, path);
     if (phong) {
         passLight(path);
@@ -176,7 +177,7 @@ void advancePath(INOUT(PathState) path, INOUT(Traversal) walk)
         bool shadow = inShadowPhase(path);
         vec3 org = shadow ? path.shadowOrg : path.org;
         vec3 dir = shadow ? path.shadowDir : path.dir;
-        bool over = path.phase == PHASE_LIGHT;
+        bool over = HAS_PHONG && path.phase == PHASE_LIGHT;
         if (over) {
             stepsLeft--;
             walk = path.hit;

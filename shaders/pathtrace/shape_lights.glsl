@@ -119,7 +119,7 @@ float pdfShapeLight(Traversal hit, SurfaceInteraction isect, vec3 org, vec3 dir)
     float perArea = lightPerArea(loadMaterial(isect.material));
     if (!(perArea > 0.0f)) return 0.0f;
     Primitive shape = loadPrimitive(hit.slot);
-    if (shape.shape == SHAPE_SPHERE) {
+    if (HAS_SPHERES && shape.shape == SHAPE_SPHERE) {
         return flushed(pdfSphereLight(perArea, shape, hit.instance, org, dir, hit.tHit));
     }
     return flushed(perArea * areaToSolidAngle(hit.tHit, absolute(dot3(isect.ng, dir))));

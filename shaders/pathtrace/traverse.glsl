@@ -45,7 +45,7 @@ vec3 greater3(vec3 a, vec3 b)
 /// Corners of the widened box of a primitive. The host builds the tree from the same boxes.
 void primitiveBox(Primitive shape, OUT(vec3) lo, OUT(vec3) hi)
 {
-    if (shape.shape == SHAPE_SPHERE) {
+    if (HAS_SPHERES && shape.shape == SHAPE_SPHERE) {
         lo = shape.p0 - vec3(shape.p1.x);
         hi = shape.p0 + vec3(shape.p1.x);
     } else {
@@ -119,7 +119,7 @@ void visitPrimitive(WalkRay ray, uint slot, INOUT(Traversal) walk)
     float t;
     float b1 = 0.0f;
     float b2 = 0.0f;
-    if (shape.shape == SHAPE_SPHERE) {
+    if (HAS_SPHERES && shape.shape == SHAPE_SPHERE) {
         if (!intersectSphere(ray.org, ray.dir, shape.p0, shape.p1.x, t)) return;
     } else {
         if (!intersectTriangle(ray.org, ray.dir, ray.sheared, shape, t, b1, b2)) return;
@@ -218,7 +218,11 @@ bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) walk)
     while (walk.ref != REF_NONE && stepsLeft != 0u) {
         while ((walk.ref & REF_NOT_INNER) == 0u && stepsLeft != 0u) {
             stepsLeft--;
-            walk.ref = NODE_WIDTH == 4u ? visitWideNode(ray.onGrid, walk) : visitNode(ray.boxes, walk);
+            if (NODE_WIDTH == 4u) {
+                walk.ref = visitWideNode(ray.onGrid, walk);
+            } else {
+                walk.ref = visitNode(ray.boxes, walk);
+            }
         }
         if ((walk.ref & REF_NOT_INNER) == 0u && stepsLeft != 0u) faults |= FAULT_LOOP_CUT;
         if (walk.ref == REF_NONE || stepsLeft == 0u || faults != 0u) break;
