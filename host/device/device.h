@@ -4,6 +4,7 @@
 
 #include "shared/adaptive_types.h"
 #include "shared/film_types.h"
+#include "shared/ray_types.h"
 #include "shared/scene_types.h"
 
 #include <memory>
@@ -13,6 +14,17 @@
 #include <vector>
 
 namespace sahl {
+
+/// The wide trees of a scene (bvh/widen.h): where there are any, rays may walk them in place of the binary
+/// ones. The primitives are the same.
+struct WideScene {
+    std::span<const WideNode> nodes;             ///< empty: there are none
+    std::span<const ObjectInstance> instances;   ///< in place of the scene's
+    uint rootRef = REF_NONE;                     ///< this and the grid in place of the frame's
+    vec3 gridAt = vec3(0.0f);
+    uint gridScale = 0;
+    uint32_t worstPending = 0;                   ///< references on the stack, whatever the ray
+};
 
 /// What a device reads: spans over the scene's arrays and its tree. They must stay valid until the
 /// next setScene() or the end of the device: the CPU reads them in place.
@@ -29,6 +41,7 @@ struct DeviceScene {
     std::span<const ObjectInstance> instances;
     Frame frame = {};
     uint32_t treeDepth = 0;  ///< decides the size of the traversal stack
+    WideScene wide;
 };
 
 /// Part of a picture and of its samples. x, y, width and height in pixels of the full picture.
@@ -123,6 +136,12 @@ public:
     /// samples from sample 0 on. pixels.size() == width * height. Throws as render() does.
     virtual void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) = 0;
 
+    /// Traces rays through the scene: the closest hit of each, or with `anyHit` some hit, and the work
+    /// that it took. hits.size() == rays.size(). For measurements and tests. Returns the seconds that
+    /// the tracing took [s], without the way of rays and hits to and from the device.
+    /// Throws as render() does.
+    virtual double traceRays(std::span<const TraceRay> rays, bool anyHit, std::span<TraceHit> hits) = 0;
+
     /// Begins adaptive sampling of a window of the picture. The result must be gone before the next
     /// setScene() and before the device. Throws as render() does.
     virtual std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,
@@ -144,6 +163,7 @@ public:
 struct DeviceOptions {
     unsigned threads = 0;              ///< CPU: 0 means all cores
     uint32_t traversalOrder = 0;       ///< one of ORDER_* (changes counters)
+    uint32_t nodeWidth = 4;            ///< 4: the wide tree where the scene has one; 2 (changes counters)
     // Vulkan only:
     enum class Buffers { automatic, texel, storage } buffers = Buffers::automatic;
     /// Division and square root by the device itself, made exact, or as a test of the device decides.

@@ -1,7 +1,7 @@
 #include "device/vulkan_adaptive.h"
 
 #include "device/adaptive_schedule.h"
-#include "kernels/spirv.h"
+#include "device/kernels.h"
 #include "shared/bindings.h"
 #include "util/error.h"
 
@@ -272,16 +272,17 @@ AdaptivePipelines makeAdaptivePipelines(Context& context, ComputePipeline path,
 {
     PipelineRequest request;
     request.name = "adaptive_pass";
-    request.spirv = kernelSpirv(request.name);
+    std::vector<uint32_t> constants(SPEC_COUNT);
+    constants[SPEC_GROUP_WIDTH] = group[0];
+    constants[SPEC_GROUP_HEIGHT] = group[1];
+    constants[SPEC_EXACT_MATH] = exactMath ? 1 : 0;
+    request.spirv = foldedKernel(request.name, constants);
     request.bindings = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
     request.pushConstantBytes = sizeof(AdaptiveDispatch);
-    request.specialisation = {group[0], group[1]};
     ComputePipeline pass = createComputePipeline(context, request);
     request.name = "adaptive_decide";
-    request.spirv = kernelSpirv(request.name);
+    request.spirv = foldedKernel(request.name, constants);
     request.bindings.push_back(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
-    request.specialisation.resize(SPEC_COUNT);
-    request.specialisation[SPEC_EXACT_MATH] = exactMath ? 1 : 0;
     return {std::move(path), std::move(pass), createComputePipeline(context, request),
             group[0] * group[1]};
 }

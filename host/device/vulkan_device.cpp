@@ -1,11 +1,13 @@
 // The Device that runs the path tracing kernels on Vulkan.
 #include "device/bounded_work.h"
 #include "device/exact_math.h"
+#include "device/kernels.h"
 #include "device/scene_features.h"
 #include "device/vulkan_adaptive.h"
 #include "device/vulkan_limits.h"
 #include "device/vulkan_scene.h"
-#include "kernels/spirv.h"
+#include "device/vulkan_trace.h"
+#include "device/walked_tree.h"
 #include "shared/bindings.h"
 #include "vulkan/pipeline.h"
 
@@ -49,6 +51,7 @@ public:
     void setScene(const DeviceScene& scene) override;
     void render(const TileRequest& tile, std::span<PixelBlock> blocks) override;
     void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override;
+    double traceRays(std::span<const TraceRay> rays, bool anyHit, std::span<TraceHit> hits) override;
     std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,
                                                    const AdaptiveRule& rule) override;
     uint32_t samplerKind() const override { return samplerKind_; }
@@ -59,9 +62,10 @@ public:
 private:
     ComputePipeline makePipeline(const std::string& kernel, uint32_t bindingCount,
                                  uint32_t pushConstantBytes = sizeof(Dispatch)) const;
-    void preparePipeline(bool texel, const SceneFeatures& features, uint32_t stackSize);
+    void preparePipeline(bool texel, uint32_t features, uint32_t stackSize, uint32_t nodeWidth);
     void prepareTileBuffers(size_t pixels);
     void prepareFirstHits(size_t pixels);
+    void requireStorageBuffers(uint32_t ofKernel, const char* purpose) const;
     void bindAll(ComputePipeline& pipeline);
     void renderBlocks(const TileRequest& tile, std::span<PixelBlock> blocks);
     void requireTile(const TileRequest& tile, size_t blockCount) const;
@@ -76,10 +80,12 @@ private:
     BoundedWork work_;
     ComputePipeline pipeline_;
     ComputePipeline firstHitsPipeline_;          // made when first asked for
+    ComputePipeline tracePipeline_;              // likewise
     const ComputePipeline* active_ = nullptr;    // the one of the two that dispatches use
     bool pipelineTexel_ = false;
-    SceneFeatures pipelineFeatures_;
+    uint32_t pipelineFeatures_ = 0;
     uint32_t pipelineStack_ = 0;  // 0: no pipeline yet
+    uint32_t pipelineNodeWidth_ = 0;
     std::unique_ptr<VulkanScene> scene_;
     uint32_t samplerKind_ = SAMPLER_INDEPENDENT;
     Buffer pixels_, suspended_;   // as large as the largest tile so far
@@ -109,11 +115,12 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     scene_.reset();  // first, so that there never need be room for two scenes
     bound_ = false;
     firstHitsBound_ = false;
-    uint32_t stackSize = chooseStackSize(scene.treeDepth);
+    const uint32_t nodeWidth = nodeWidthFor(scene, options_.nodeWidth);
+    uint32_t stackSize = chooseStackSize(stackEntriesFor(scene, nodeWidth));
     auto start = std::chrono::steady_clock::now();
-    auto uploaded = std::make_unique<VulkanScene>(uploadScene(*context_, scene, options_.buffers));
+    auto uploaded = std::make_unique<VulkanScene>(uploadScene(*context_, scene, options_.buffers, nodeWidth));
     statistics_.uploadSeconds += secondsSince(start);
-    preparePipeline(uploaded->texel, featuresOf(scene), stackSize);
+    preparePipeline(uploaded->texel, featuresOf(scene), stackSize, nodeWidth);
     scene_ = std::move(uploaded);
     samplerKind_ = scene.frame.samplerKind;
     statistics_.sceneBytes = scene_->bytes;
@@ -126,7 +133,6 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
 {
     PipelineRequest request;
     request.name = kernel + (pipelineTexel_ ? "_texel" : "_storage");
-    request.spirv = kernelSpirv(request.name);
     request.bindings.assign(SCENE_BUFFER_COUNT, pipelineTexel_
                                                     ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
                                                     : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
@@ -134,29 +140,33 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     request.bindings.resize(bindingCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     request.bindings[BINDING_FRAME] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     request.pushConstantBytes = pushConstantBytes;
-    request.specialisation.resize(SPEC_COUNT);
-    request.specialisation[SPEC_GROUP_WIDTH] = group_[0];
-    request.specialisation[SPEC_GROUP_HEIGHT] = group_[1];
-    request.specialisation[SPEC_STACK_SIZE] = pipelineStack_;
-    request.specialisation[SPEC_ORDER] = options_.traversalOrder;
-    request.specialisation[SPEC_EXACT_MATH] = statistics_.exactMath ? 1 : 0;
-    request.specialisation[SPEC_INSTANCES] = pipelineFeatures_.instances ? 1 : 0;
-    request.specialisation[SPEC_TEXTURES] = pipelineFeatures_.textures ? 1 : 0;
-    request.specialisation[SPEC_CUTOUTS] = pipelineFeatures_.cutouts ? 1 : 0;
+    std::vector<uint32_t> constants(SPEC_COUNT);
+    constants[SPEC_GROUP_WIDTH] = group_[0];
+    constants[SPEC_GROUP_HEIGHT] = group_[1];
+    constants[SPEC_STACK_SIZE] = pipelineStack_;
+    constants[SPEC_NODE_WIDTH] = pipelineNodeWidth_;
+    constants[SPEC_ORDER] = options_.traversalOrder;
+    constants[SPEC_EXACT_MATH] = statistics_.exactMath ? 1 : 0;
+    constants[SPEC_FEATURES] = pipelineFeatures_;
+    request.spirv = foldedKernel(request.name, constants);
     return createComputePipeline(*context_, request);
 }
 
-void VulkanDevice::preparePipeline(bool texel, const SceneFeatures& features, uint32_t stackSize)
+void VulkanDevice::preparePipeline(bool texel, uint32_t features, uint32_t stackSize, uint32_t nodeWidth)
 {
-    if (pipelineStack_ == stackSize && pipelineTexel_ == texel && pipelineFeatures_ == features) return;
+    if (pipelineStack_ == stackSize && pipelineTexel_ == texel && pipelineFeatures_ == features &&
+        pipelineNodeWidth_ == nodeWidth)
+        return;
     pipelineStack_ = stackSize;
+    pipelineNodeWidth_ = nodeWidth;
     pipelineTexel_ = texel;
     pipelineFeatures_ = features;
     firstHitsPipeline_ = {};
     firstHitsBound_ = false;
+    tracePipeline_ = {};
     adaptive_ = {};
     try {
-        pipeline_ = makePipeline(features.glossy ? "path_glossy" : "path", BINDING_COUNT);
+        pipeline_ = makePipeline("path", BINDING_COUNT);
     } catch (...) {
         pipelineStack_ = 0;
         throw;
@@ -177,15 +187,20 @@ void VulkanDevice::prepareTileBuffers(size_t pixels)
     suspended_ = createBuffer(*context_, {"suspended", suspendedBytes, usage, HostUse::none});
 }
 
-void VulkanDevice::prepareFirstHits(size_t pixels)
+/// Throws noDevice where a kernel cannot bind so many storage buffers besides those of the scene.
+void VulkanDevice::requireStorageBuffers(uint32_t ofKernel, const char* purpose) const
 {
-    uint32_t storageBuffers = (pipelineTexel_ ? 0 : SCENE_BUFFER_COUNT - 1) + 3;
+    uint32_t storageBuffers = (pipelineTexel_ ? 0 : SCENE_BUFFER_COUNT - 1) + ofKernel;
     uint32_t allowed = context_->physical.properties.limits.maxPerStageDescriptorStorageBuffers;
     if (storageBuffers > allowed)
         throw Error(ErrorKind::noDevice,
-                    fmt::format("'{}' binds {} storage buffers at once; albedo, normals and the like "
-                                "need {}; try --device cpu",
-                                context_->physical.name, allowed, storageBuffers));
+                    fmt::format("'{}' binds {} storage buffers at once; {} {}; try --device cpu",
+                                context_->physical.name, allowed, purpose, storageBuffers));
+}
+
+void VulkanDevice::prepareFirstHits(size_t pixels)
+{
+    requireStorageBuffers(3, "albedo, normals and the like need");
     if (firstHitsPipeline_.name.empty())
         firstHitsPipeline_ = makePipeline("first_hits", BINDING_FIRST_HITS + 1);
     if (firstHits_.bytes >= pixels * sizeof(FirstHits)) return;
@@ -250,14 +265,25 @@ void VulkanDevice::renderFirstHits(const TileRequest& tile, std::span<FirstHits>
     readBuffer(firstHits_, std::as_writable_bytes(pixels));
 }
 
+double VulkanDevice::traceRays(std::span<const TraceRay> rays, bool anyHit, std::span<TraceHit> hits)
+{
+    if (!scene_ || hits.size() != rays.size())
+        throw usageError("trace rays on '{}': {} rays, room for {} hits (scene set: {})",
+                         context_->physical.name, rays.size(), hits.size(), scene_ != nullptr);
+    requireStorageBuffers(3, "rays of the host need");
+    if (tracePipeline_.name.empty())
+        tracePipeline_ = makePipeline("trace_rays", BINDING_RAY_WALKS + 1, sizeof(TraceDispatch));
+    return traceRaysOnVulkan({*context_, tracePipeline_, *scene_, work_, statistics_, pipelineStack_,
+                              group_[0] * group_[1]},
+                             rays, anyHit, hits);
+}
+
 std::unique_ptr<AdaptivePicture> VulkanDevice::beginAdaptive(const AdaptiveWindow& window,
                                                              const AdaptiveRule& rule)
 {
     if (!scene_) throw usageError("adaptive sampling on '{}' without a scene", context_->physical.name);
     if (!adaptive_) {
-        const bool glossy = pipelineFeatures_.glossy;
-        ComputePipeline path = makePipeline(glossy ? "adaptive_path_glossy" : "adaptive_path",
-                                            BINDING_COUNT, sizeof(AdaptiveDispatch));
+        ComputePipeline path = makePipeline("adaptive_path", BINDING_COUNT, sizeof(AdaptiveDispatch));
         adaptive_ = std::make_unique<AdaptivePipelines>(
             makeAdaptivePipelines(*context_, std::move(path), group_, statistics_.exactMath));
     }

@@ -8,7 +8,7 @@
 namespace sahl {
 
 /// SPIR-V of a kernel: "path_texel", "path_storage", "first_hits_texel", "first_hits_storage" (see
-/// kernels/path.comp), or "math_probe".
+/// kernels/path.comp), "trace_rays_texel" and so on, or "math_probe".
 std::span<const uint32_t> kernelSpirv(std::string_view name);
 
 }  // namespace sahl

@@ -1,6 +1,4 @@
 // How materials scatter light: eval, sample and pdf.
-//
-// Without SAHL_GLOSSY for scenes that have no materials from MATERIAL_ROUGH_CONDUCTOR on.
 
 /// Share of a material that is diffuse.
 float diffuseShare(Material material)
@@ -17,9 +15,7 @@ float diffuseShare(Material material)
 bool isSpecular(Material material)
 {
     uint type = material.type;
-#ifdef SAHL_GLOSSY
-    type = typeActedAs(material);
-#endif
+    if (HAS_GLOSSY) type = typeActedAs(material);
     if (type == MATERIAL_REPORT) return !(material.diffuseWeight > 0.0f);
     return (type >= MATERIAL_MIRROR && type <= MATERIAL_CONDUCTOR) || type == MATERIAL_THIN_DIELECTRIC;
 }
@@ -36,9 +32,7 @@ bool scattersThrough(Material material)
 ///   wo, wi  unit directions to the viewer and to the light
 BsdfValue evalBsdf(Material material, SurfaceInteraction isect, vec3 wo, vec3 wi)
 {
-#ifdef SAHL_GLOSSY
-    if (material.type >= MATERIAL_ROUGH_CONDUCTOR) return evalGlossy(material, isect, wo, wi);
-#endif
+    if (HAS_GLOSSY && material.type >= MATERIAL_ROUGH_CONDUCTOR) return evalGlossy(material, isect, wo, wi);
     BsdfValue value = noBsdf();
     float cosine = dot3(wi, isect.ns);
     if (!(cosine > 0.0f) || !onViewersSide(isect, wo, wi)) return value;
@@ -78,22 +72,18 @@ BsdfSample sampleBsdf(Material material, SurfaceInteraction isect, vec3 dir, flo
     bs.mediumEta = mediumEta;
     bs.etaScale = 1.0f;
     uint type = material.type;
-#ifdef SAHL_GLOSSY
-    type = typeActedAs(material);
-#endif
+    if (HAS_GLOSSY) type = typeActedAs(material);
     if (type == MATERIAL_LAMBERT) {
         sampleDiffuse(isect, material.baseColor, u.x, u.y, bs);
-    } else if (type == MATERIAL_MIRROR) {
+    } else if (HAS_SMOOTH && type == MATERIAL_MIRROR) {
         sampleReflection(isect, dir, material.baseColor, bs);
-    } else if (type == MATERIAL_CONDUCTOR) {
+    } else if (HAS_SMOOTH && type == MATERIAL_CONDUCTOR) {
         sampleConductor(material, isect, dir, bs);
-    } else if (type == MATERIAL_DIELECTRIC) {
+    } else if (HAS_SMOOTH && type == MATERIAL_DIELECTRIC) {
         sampleDielectric(material, isect, dir, u.x, bs);
-    } else if (type == MATERIAL_REPORT) {
+    } else if (HAS_SMOOTH && type == MATERIAL_REPORT) {
         sampleReportMaterial(material, isect, dir, u, bs);
     }
-#ifdef SAHL_GLOSSY
-    if (type >= MATERIAL_ROUGH_CONDUCTOR) sampleGlossy(material, isect, dir, u, bs);
-#endif
+    if (HAS_GLOSSY && type >= MATERIAL_ROUGH_CONDUCTOR) sampleGlossy(material, isect, dir, u, bs);
     return bs;
 }

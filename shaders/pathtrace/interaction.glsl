@@ -129,7 +129,7 @@ SurfaceInteraction geometryAt(Primitive shape, Traversal hit, vec3 org, vec3 dir
     isect.material = shape.material;
     isect.u = 0.0f;
     isect.v = 0.0f;
-    if (shape.shape == SHAPE_SPHERE) {
+    if (HAS_SPHERES && shape.shape == SHAPE_SPHERE) {
         sphereInteraction(shape, hit, org, dir, isect);
     } else {
         triangleInteraction(shape, hit, dir, isect);

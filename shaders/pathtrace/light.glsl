@@ -71,7 +71,7 @@ LightSample sampleShapeLight(float chance, Light light, SurfaceInteraction isect
     Material material = loadMaterial(ofInstance != NO_MATERIAL ? ofInstance : shape.material);
     float perArea = lightPerArea(material) * chance;
     ShapeSample ss;
-    if (light.type == LIGHT_SPHERE) {
+    if (HAS_SPHERES && light.type == LIGHT_SPHERE) {
         ss = sampleSphereLight(perArea, shape, light.instance, isect, u1, u2);
     } else {
         ss = sampleTriangleLight(perArea, shape, light.instance, ofInstance, isect, u1, u2);
@@ -98,14 +98,19 @@ LightSample sampleLight(SurfaceInteraction isect, LightChoice choice, uvec4 bits
     float u1 = unitFloat(bits.y);
     float u2 = unitFloat(bits.z);
     uint finer = ((bits.y & 255u) | ((bits.z & 255u) << 8u)) | ((bits.w & 255u) << 16u);
-    if (choice.light == TAKE_PROBE) return sampleProbeLight(choice.chance, bits.x, finer, u1, u2);
+    if (HAS_PROBE_LIGHT && choice.light == TAKE_PROBE) {
+        return sampleProbeLight(choice.chance, bits.x, finer, u1, u2);
+    }
+    if (!HAS_FAR_LIGHTS && !HAS_SHAPE_LIGHTS) return noLight();
     uint index = choice.light;
     float chance = choice.chance;
     if (choice.light == TAKE_TABLE) {
         index = frame.singleCount + chooseByAlias(0u, frame.choiceCount, bits.x, finer);
     }
     Light light = loadLight(index);
-    if (light.type >= LIGHT_TRIANGLE) return sampleShapeLight(chance, light, isect, u1, u2);
+    if (HAS_SHAPE_LIGHTS && (!HAS_FAR_LIGHTS || light.type >= LIGHT_TRIANGLE)) {
+        return sampleShapeLight(chance, light, isect, u1, u2);
+    }
     if (choice.light == TAKE_TABLE) chance = chance * light.chance;
     LightSample ls = illuminate(light, isect.p);
     ls.Li = flushed3(ls.Li * quotient(1.0f, chance));

@@ -111,23 +111,27 @@ LightChoice chooseLight(SurfaceInteraction isect, bool through, float carried, f
     float all = placesOfAll(carried);
     float place = u * 16777216.0f;
     LightChoice choice;
-    bool hasProbe = frame.probeMean > 0.0f;
-    bool hasTable = frame.choiceCount != 0u;
+    bool hasProbe = HAS_PROBE_LIGHT && frame.probeMean > 0.0f;
+    bool hasTable = (HAS_FAR_LIGHTS || HAS_SHAPE_LIGHTS) && frame.choiceCount != 0u;
     choice.light = hasProbe ? TAKE_PROBE : TAKE_TABLE;
     choice.chance = all * 5.96046448e-8f;
     choice.probeChance = hasProbe ? choice.chance : 0.0f;
     choice.tableChance = hasProbe ? 0.0f : choice.chance;
     if (!(place < all)) choice.light = TAKE_NOTHING;
-    if (frame.singleCount == 0u && hasProbe != hasTable) return choice;
+    if ((!HAS_FAR_LIGHTS || frame.singleCount == 0u) && hasProbe != hasTable) return choice;
 
-    float ofProbe = hasProbe ? arrivingFromProbe(isect, through) : 0.0f;
-    float ofTable = hasTable ? arrivingFromTable(isect, through) : 0.0f;
+    float ofProbe = 0.0f;
+    float ofTable = 0.0f;
     float ofLights = 0.0f;
     uint shining = 0u;
-    for (uint i = 0u; i < frame.singleCount; i++) {
-        float arriving = arrivingFromLight(loadLight(i), isect, through);
-        ofLights += arriving;
-        if (arriving > 0.0f) shining++;
+    if (HAS_PROBE_LIGHT && hasProbe) ofProbe = arrivingFromProbe(isect, through);
+    if ((HAS_FAR_LIGHTS || HAS_SHAPE_LIGHTS) && hasTable) ofTable = arrivingFromTable(isect, through);
+    if (HAS_FAR_LIGHTS) {
+        for (uint i = 0u; i < frame.singleCount; i++) {
+            float arriving = arrivingFromLight(loadLight(i), isect, through);
+            ofLights += arriving;
+            if (arriving > 0.0f) shining++;
+        }
     }
     float total = (ofProbe + ofTable) + ofLights;
     choice.light = TAKE_NOTHING;
@@ -145,13 +149,13 @@ LightChoice chooseLight(SurfaceInteraction isect, bool through, float carried, f
     choice.probeChance = endOfProbe * 5.96046448e-8f;
     choice.tableChance = (endOfTable - endOfProbe) * 5.96046448e-8f;
 
-    if (place < endOfProbe) {
+    if (HAS_PROBE_LIGHT && place < endOfProbe) {
         choice.light = TAKE_PROBE;
         choice.chance = choice.probeChance;
     } else if (place < endOfTable) {
         choice.light = TAKE_TABLE;
         choice.chance = choice.tableChance;
-    } else if (place < all) {
+    } else if (HAS_FAR_LIGHTS && place < all) {
         chooseSingleLight(isect, through, place, endOfTable, ofProbe + ofTable, least, perSum, all, shining,
                           choice);
     }

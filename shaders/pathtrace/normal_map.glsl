@@ -58,7 +58,7 @@ UvAxes uvAxesAt(Traversal hit, SurfaceInteraction isect)
     UvAxes axes;
     axes.u = vec3(0.0f);
     axes.v = vec3(0.0f);
-    if (shape.shape == SHAPE_SPHERE) {
+    if (HAS_SPHERES && shape.shape == SHAPE_SPHERE) {
         axes = sphereUvAxes(unit(p - shape.p0));
     } else if (shape.shape != SHAPE_FLAT) {
         axes = triangleUvAxes(shape, loadCorners(shape.shape));

@@ -57,6 +57,7 @@ Traversal beginPathTraversal(PathState path)
 bool sampleDirectLight(Material material, SurfaceInteraction isect, uint dimension, float u,
                        INOUT(PathState) path)
 {
+    if (!HAS_FAR_LIGHTS && !HAS_SHAPE_LIGHTS && !HAS_PROBE_LIGHT) return false;
     if (!anyLightIsSampled() || isSpecular(material)) return false;
     float carried = maxComponent(path.beta) * path.etaScale;
     LightChoice choice = chooseLight(isect, scattersThrough(material), carried, u);
@@ -108,7 +109,7 @@ void seeEmission(SurfaceInteraction isect, Material material, Traversal hit, INO
 {
     if (!(maxComponent(material.emission) > 0.0f)) return;
     float weight = 1.0f;
-    if (path.pdf > 0.0f) {
+    if (HAS_SHAPE_LIGHTS && path.pdf > 0.0f) {
         float pdfLight = pdfShapeLight(path.tableChance, hit, isect, path.org, path.dir);
         weight = weightOfScattering(path.pdf, pdfLight);
     }
@@ -149,7 +150,7 @@ void shadePath(Traversal hit, INOUT(PathState) path)
         SurfaceInteraction isect = interactionAt(hit, path.org, path.dir);
         Material material = texturedMaterial(loadMaterial(isect.material), isect.u, isect.v);
         isect = bumpedInteraction(material, hit, isect);
-        if (frame.integrator == INTEGRATOR_PHONG) {
+        if (HAS_PHONG && (!HAS_PATHS || frame.integrator == INTEGRATOR_PHONG)) {
             shadePhong(isect, material, hit, path);
         } else {
             lobe = shadeSurface(isect, material, hit, path);
@@ -165,7 +166,7 @@ void finishShadow(Traversal hit, INOUT(PathState) path)
 {
     uint blocked = hit.slot != NO_HIT ? 1u : 0u;
     path.digest += digestOf(blocked, 0u, path.depth, DIGEST_SHADOW);
-    bool phong = frame.integrator == INTEGRATOR_PHONG;
+    bool phong = HAS_PHONG && frame.integrator == INTEGRATOR_PHONG;
     if (blocked == 0u) gather(path.Ld, phong ? 1u : path.depth, path);
     if (phong) {
         passLight(path);
@@ -181,7 +182,7 @@ void advancePath(INOUT(PathState) path, INOUT(Traversal) walk)
         bool shadow = inShadowPhase(path);
         vec3 org = shadow ? path.shadowOrg : path.org;
         vec3 dir = shadow ? path.shadowDir : path.dir;
-        bool over = path.phase == PHASE_LIGHT;
+        bool over = HAS_PHONG && path.phase == PHASE_LIGHT;
         if (over) {
             stepsLeft--;
             walk = path.hit;

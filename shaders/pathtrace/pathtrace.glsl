@@ -1,6 +1,6 @@
 // The path tracer, in the order in which a path meets its parts. The includer provides the buffers
-// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, TRAVERSAL_ORDER, EXACT_MATH, HAS_... and the macros OUT
-// and INOUT; it defines SAHL_GLOSSY where it wants all materials.
+// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, NODE_WIDTH, TRAVERSAL_ORDER, EXACT_MATH, FEATURES and the macros
+// OUT and INOUT.
 
 // Invocation-wide state.
 struct Tally
@@ -20,6 +20,7 @@ uint stack[STACK_SIZE];  // references still to visit
 
 CONST float RAY_INFINITY = 3.0e38f;
 
+#include "pathtrace/features.glsl"
 #include "pathtrace/exact.glsl"
 #include "pathtrace/math.glsl"
 #include "pathtrace/sobol.glsl"
@@ -30,6 +31,9 @@ CONST float RAY_INFINITY = 3.0e38f;
 #include "pathtrace/sphere.glsl"
 #include "pathtrace/texture.glsl"
 #include "pathtrace/instance.glsl"
+#include "pathtrace/boxes.glsl"
+#include "pathtrace/stack.glsl"
+#include "pathtrace/wide.glsl"
 #include "pathtrace/traverse.glsl"
 #include "pathtrace/interaction.glsl"
 #include "pathtrace/normal_map.glsl"

@@ -51,7 +51,8 @@ vec3 fromProbe(Probe probe, vec3 d)
 vec4 lookUpProbe(Probe probe, vec3 d)
 {
     if (probe.height == 0u) return vec4(0.0f);
-    vec2 uv = probe.mapping == PROBE_ANGULAR ? angularMapFromDirection(d)
+    bool angular = HAS_ANGULAR && (!HAS_LATLONG || probe.mapping == PROBE_ANGULAR);
+    vec2 uv = angular ? angularMapFromDirection(d)
                                                    : latLongFromDirection(d);
     float x = uv.x * float(probe.width);
     float y = uv.y * float(probe.height);

@@ -36,7 +36,7 @@ bool directionFromAngularMap(float u, float v, OUT(vec3) d)
 float probeSolidAngle(Probe probe, vec3 d)
 {
     float solidAngle;
-    if (probe.mapping == PROBE_ANGULAR) {
+    if (HAS_ANGULAR && (!HAS_LATLONG || probe.mapping == PROBE_ANGULAR)) {
         float sine = root(d.x * d.x + d.y * d.y);
         float turns = atan2Turns(sine, -d.z);
         bool central = d.z < 0.0f && !(sine > 1e-10f);
@@ -53,7 +53,7 @@ float probeSolidAngle(Probe probe, vec3 d)
 ///   weight  of the texels there, looked up like their colour
 float pdfProbe(float chance, vec3 d, float weight)
 {
-    if (!(chance > 0.0f)) return 0.0f;
+    if (!HAS_PROBE_LIGHT || !(chance > 0.0f)) return 0.0f;
     return flushed(chance * quotient(weight, probeSolidAngle(frame.probe, d)));
 }
 
@@ -94,7 +94,7 @@ bool sampleProbe(uint bits, uint finer, float u1, float u2, OUT(vec3) d)
     float x = placeAboutTexel(texel - row * width, frame.probe.filterMode, u1);
     float y = placeAboutTexel(row, frame.probe.filterMode, u2);
     float v = quotient(reflectedPlace(y, h), h);
-    if (frame.probe.mapping == PROBE_ANGULAR) {
+    if (HAS_ANGULAR && (!HAS_LATLONG || frame.probe.mapping == PROBE_ANGULAR)) {
         return directionFromAngularMap(quotient(reflectedPlace(x, w), w), v, d);
     }
     d = directionFromLatLong(quotient(wrappedPlace(x, w), w), v);

@@ -36,7 +36,8 @@ float unitFloat(uint bits) { return float(bits >> 8u) * 5.96046448e-08f; }
 /// 32 random bits for each of a row of four dimensions, by the scene's sampler.
 uvec4 randomBits4(uint pixel, uint sampleIndex, uint dimension)
 {
-    if (frame.samplerKind == SAMPLER_INDEPENDENT) return hash4(pixel, sampleIndex, dimension, frame.seed);
+    if (!HAS_SOBOL || (HAS_INDEPENDENT && frame.samplerKind == SAMPLER_INDEPENDENT))
+        return hash4(pixel, sampleIndex, dimension, frame.seed);
     // There are fewer than 2^24 samples, so the highest bits tell the three kinds of numbers apart: pictures of
     // both samplers have no noise in common. BLOCK_SIZE is 8.
     uvec4 ofSample = hash4(pixel, sampleIndex | 0x40000000u, dimension, frame.seed);

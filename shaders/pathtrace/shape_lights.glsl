@@ -120,7 +120,7 @@ float pdfShapeLight(float chance, Traversal hit, SurfaceInteraction isect, vec3 
     float perArea = lightPerArea(loadMaterial(isect.material)) * chance;
     if (!(perArea > 0.0f)) return 0.0f;
     Primitive shape = loadPrimitive(hit.slot);
-    if (shape.shape == SHAPE_SPHERE) {
+    if (HAS_SPHERES && shape.shape == SHAPE_SPHERE) {
         return flushed(pdfSphereLight(perArea, shape, hit.instance, org, dir, hit.tHit));
     }
     return flushed(perArea * areaToSolidAngle(hit.tHit, absolute(dot3(isect.ng, dir))));

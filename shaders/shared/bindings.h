@@ -22,16 +22,20 @@ SHARED_CONST uint BINDING_SUSPENDED = 9u;   // storage buffer, SuspendedPath[] o
 SHARED_CONST uint BINDING_COUNT = 10u;      // of the path kernels
 SHARED_CONST uint BINDING_FIRST_HITS = 10u; // storage buffer, FirstHits[] of the tile: first_hits only
 
+// In place of these, of trace_rays: storage buffers, TraceRay[], TraceHit[] and SuspendedWalk[].
+SHARED_CONST uint BINDING_RAYS = 8u;
+SHARED_CONST uint BINDING_RAY_HITS = 9u;
+SHARED_CONST uint BINDING_RAY_WALKS = 10u;
+
 // Specialisation constants.
 SHARED_CONST uint SPEC_GROUP_WIDTH = 0u;   // workgroup shape [invocations]
 SHARED_CONST uint SPEC_GROUP_HEIGHT = 1u;
 SHARED_CONST uint SPEC_STACK_SIZE = 2u;    // entries, at least the depth of the tree
 SHARED_CONST uint SPEC_ORDER = 3u;         // one of ORDER_*
 SHARED_CONST uint SPEC_EXACT_MATH = 4u;    // 1: division and root made exact (pathtrace/exact.glsl)
-SHARED_CONST uint SPEC_INSTANCES = 5u;     // 1: the scene has instances
-SHARED_CONST uint SPEC_TEXTURES = 6u;      // 1: the scene has textures
-SHARED_CONST uint SPEC_CUTOUTS = 7u;       // 1: it has materials with holes
-SHARED_CONST uint SPEC_COUNT = 8u;
+SHARED_CONST uint SPEC_FEATURES = 5u;      // what the scene has: FEATURE_* of features.h
+SHARED_CONST uint SPEC_NODE_WIDTH = 6u;    // children of a node: 2, or 4 for the wide tree
+SHARED_CONST uint SPEC_COUNT = 7u;
 
 // Order in which the children of a node are visited. It changes the counters, never a hit.
 SHARED_CONST uint ORDER_NEAR_FIRST = 0u;

@@ -1,9 +1,10 @@
-// Every BSDF sampled and evaluated on the device and in C++: the same bits. So what is shown of samples
-// and densities on the CPU (tests/statistical/bsdf_*.cpp) holds on the device.
+// Every BSDF sampled and evaluated on the device and in C++: the same bits. So what is shown of
+// samples and densities on the CPU (tests/statistical/bsdf_*.cpp) holds on the device.
 
 #include "agreement/agreement_spirv.h"
 #include "agreement/bsdf_query.h"
 #include "shared/bindings.h"
+#include "shared/features.h"
 #include "support/bsdf_cases.h"
 #include "support/device_test.h"
 #include "vulkan/run_compute.h"
@@ -102,9 +103,11 @@ TEST_F(BsdfBits, areThoseOfCpp)
     parameters.groups = {static_cast<uint32_t>((queries.size() + 63) / 64), 1, 1};
     parameters.specialisation.resize(SPEC_COUNT);
     parameters.specialisation[SPEC_STACK_SIZE] = MAX_STACK_SIZE;
-    runCompute(*context, testSpirv("bsdf_probe"),
-               {std::as_writable_bytes(std::span(queries)), std::as_writable_bytes(std::span(answers))},
-               parameters);
+    parameters.specialisation[SPEC_FEATURES] = FEATURES_ALL;
+    runCompute(
+        *context, testSpirv("bsdf_probe"),
+        {std::as_writable_bytes(std::span(queries)), std::as_writable_bytes(std::span(answers))},
+        parameters);
     Kernel kernel;
     size_t different = 0, evaluated = 0;
     std::array<size_t, 6> lobes = {};
@@ -112,8 +115,8 @@ TEST_F(BsdfBits, areThoseOfCpp)
         const BsdfAnswer expected = answerOf(kernel, queries[i]);
         if (std::memcmp(&expected, &answers[i], sizeof(expected)) != 0) {
             if (different++ == 0) {
-                ADD_FAILURE() << "query " << i << ", type " << queries[i].material.type
-                              << ", lobe " << expected.lobe << " and " << answers[i].lobe;
+                ADD_FAILURE() << "query " << i << ", type " << queries[i].material.type << ", lobe "
+                              << expected.lobe << " and " << answers[i].lobe;
             }
         }
         EXPECT_TRUE(isFine(kernel, expected.weight) && isFine(kernel, expected.f) &&

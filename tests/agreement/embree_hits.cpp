@@ -168,9 +168,9 @@ Counts compare(const std::vector<Primitive>& triangles, const std::vector<Ray>& 
         Counts counts;
         const size_t end = std::min(rays.size(), (chunk + 1) * CHUNK);
         for (size_t i = chunk * CHUNK; i < end; i++) {
-            const Traversal walk = closestHit(kernel, rays[i]);
+            const TraceHit hit = kernel.traceRay({rays[i].org, kernel.RAY_INFINITY, rays[i].dir, 0}, false);
             Found ours;
-            if (walk.slot != NO_HIT) ours = {walk.number, walk.tHit};
+            if (hit.number != NO_HIT) ours = {hit.number, hit.tHit};
             const Found theirs = embree.closest(rays[i]);
             const Kind kind = classify(rays[i], ours, theirs, triangles);
             counts.of[kind]++;

@@ -115,6 +115,10 @@ TEST_F(DeviceTest, verifyFindsTheFirstPixelSampleAndBounceOfADifference)
         {
             inner->renderFirstHits(tile, pixels);
         }
+        double traceRays(std::span<const TraceRay> rays, bool anyHit, std::span<TraceHit> hits) override
+        {
+            return inner->traceRays(rays, anyHit, hits);
+        }
         std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,
                                                        const AdaptiveRule& rule) override
         {

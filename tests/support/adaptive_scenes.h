@@ -39,6 +39,10 @@ struct SmallDevice : Device {
     {
         inner->renderFirstHits(tile, pixels);
     }
+    double traceRays(std::span<const TraceRay> rays, bool anyHit, std::span<TraceHit> hits) override
+    {
+        return inner->traceRays(rays, anyHit, hits);
+    }
     std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,
                                                    const AdaptiveRule& rule) override
     {

@@ -1,0 +1,25 @@
+// Rays given by the host, traced on Vulkan: see Device::traceRays.
+#pragma once
+
+#include "device/bounded_work.h"
+#include "device/vulkan_scene.h"
+#include "vulkan/pipeline.h"
+
+namespace sahl {
+
+/// What tracing needs of the device that it runs on.
+struct TraceHost {
+    Context& context;
+    ComputePipeline& pipeline;  ///< kernels/trace_rays.comp, for the scene and stack in force
+    const VulkanScene& scene;
+    BoundedWork& work;
+    DeviceStatistics& statistics;
+    uint32_t stackSize = 0;
+    uint32_t groupSize = 0;  ///< invocations of a workgroup
+};
+
+/// The seconds that the dispatches took [s].
+double traceRaysOnVulkan(const TraceHost& host, std::span<const TraceRay> rays, bool anyHit,
+                         std::span<TraceHit> hits);
+
+}  // namespace sahl

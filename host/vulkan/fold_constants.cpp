@@ -1,0 +1,40 @@
+#include "vulkan/fold_constants.h"
+
+#include "util/error.h"
+
+#include <spirv-tools/optimizer.hpp>
+
+#include <fmt/format.h>
+
+namespace sahl {
+
+std::vector<uint32_t> foldedConstants(std::span<const uint32_t> spirv,
+                                      std::span<const uint32_t> values)
+{
+    std::unordered_map<uint32_t, std::vector<uint32_t>> byId;
+    for (uint32_t id = 0; id < values.size(); id++) byId[id] = {values[id]};
+
+    std::string finding;
+    spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_1);
+    optimizer.SetMessageConsumer(
+        [&](spv_message_level_t level, const char*, const spv_position_t&, const char* text) {
+            if (level <= SPV_MSG_ERROR) finding = text;
+        });
+    // None of the passes folds arithmetic that is decorated NoContraction.
+    optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(byId))
+        .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
+        .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
+        .RegisterPass(spvtools::CreateCCPPass())
+        .RegisterPass(spvtools::CreateDeadBranchElimPass())
+        .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
+        .RegisterPass(spvtools::CreateAggressiveDCEPass());
+    spvtools::OptimizerOptions options;
+    options.set_run_validator(false);  // the build has validated it
+    std::vector<uint32_t> folded;
+    if (!optimizer.Run(spirv.data(), spirv.size(), &folded, options))
+        throw Error(ErrorKind::deviceLost,
+                    fmt::format("fold constants into a shader: {}", finding));
+    return folded;
+}
+
+}  // namespace sahl

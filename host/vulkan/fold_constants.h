@@ -1,0 +1,17 @@
+// Specialisation constants put into a shader before a driver sees it. Software drivers compile
+// every branch that a constant rules out, which takes seconds; folded here, such code is gone.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sahl {
+
+/// The module with its specialisation constants of ids 0, 1, 2, ... fixed at values[0], values[1],
+/// ...; code that they rule out is left out. What stays is as it was: no float arithmetic is folded
+/// or rearranged. Throws deviceLost when the module cannot be read.
+std::vector<uint32_t> foldedConstants(std::span<const uint32_t> spirv,
+                                      std::span<const uint32_t> values);
+
+}  // namespace sahl

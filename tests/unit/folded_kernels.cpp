@@ -1,0 +1,110 @@
+// Kernels whose constants are folded in before a driver sees them: the arithmetic that is left is
+// still that which the build has checked and decorated.
+
+#include "device/kernels.h"
+#include "kernels/spirv.h"
+#include "shared/bindings.h"
+#include "shared/features.h"
+#include "shared/scene_types.h"
+#include "spirv_step.h"
+
+#include <gtest/gtest.h>
+#include <spirv/unified1/spirv.hpp>
+
+namespace sahl {
+namespace {
+
+using Words = std::vector<uint32_t>;
+
+std::vector<uint32_t> constantsFor(uint32_t features)
+{
+    std::vector<uint32_t> constants(SPEC_COUNT);
+    constants[SPEC_GROUP_WIDTH] = 8;
+    constants[SPEC_GROUP_HEIGHT] = 8;
+    constants[SPEC_STACK_SIZE] = MAX_STACK_SIZE;
+    constants[SPEC_FEATURES] = features;
+    return constants;
+}
+
+constexpr uint32_t PLAIN = FEATURE_PATHS | FEATURE_INDEPENDENT | FEATURE_LATLONG;
+constexpr uint32_t FEATURE_SETS[] = {FEATURES_ALL, PLAIN,
+                                     PLAIN | FEATURE_GLOSSY | FEATURE_PROBE_LIGHT};
+
+Words folded(const std::string& kernel, uint32_t features)
+{
+    std::span<const uint32_t> words = foldedKernel(kernel, constantsFor(features));
+    return {words.begin(), words.end()};
+}
+
+/// Counts the instructions for which `counts` says so.
+template <class Predicate>
+size_t count(const Words& module, Predicate counts)
+{
+    size_t n = 0;
+    for (size_t at = 5; at < module.size(); at += module[at] >> spv::WordCountShift)
+        n += counts(static_cast<spv::Op>(module[at] & spv::OpCodeMask), &module[at]) ? 1 : 0;
+    return n;
+}
+
+const char* const KERNELS[] = {"trace_rays_texel",    "trace_rays_storage",   "path_texel",
+                               "path_storage",        "first_hits_texel",     "first_hits_storage",
+                               "adaptive_path_texel", "adaptive_path_storage"};
+
+TEST(FoldedKernels, holdNoFloatInstructionThatDiffersBetweenDevices)
+{
+    for (const char* kernel : KERNELS)
+        for (uint32_t features : FEATURE_SETS)
+            EXPECT_TRUE(shader_step::refusedInstructions(folded(kernel, features)).empty())
+                << kernel << features;
+}
+
+TEST(FoldedKernels, keepAllFloatArithmeticDecorated)
+{
+    for (const char* kernel : KERNELS) {
+        for (uint32_t features : FEATURE_SETS) {
+            Words module = folded(kernel, features);
+            size_t decorated = count(module, [](spv::Op op, const uint32_t* words) {
+                return op == spv::OpDecorate && words[2] == spv::DecorationNoContraction;
+            });
+            constexpr size_t DECORATION_WORDS = 3;
+            size_t arithmetic =
+                (shader_step::decoratedNoContraction(module).size() - module.size()) /
+                DECORATION_WORDS;
+            EXPECT_GT(decorated, 50u);
+            EXPECT_EQ(decorated, arithmetic) << kernel << features;
+        }
+    }
+}
+
+TEST(FoldedKernels, haveNoConstantLeftToChoose)
+{
+    for (const char* kernel : KERNELS) {
+        Words module = folded(kernel, FEATURES_ALL);
+        EXPECT_EQ(count(module,
+                        [](spv::Op op, const uint32_t*) {
+                            return op >= spv::OpSpecConstantTrue && op <= spv::OpSpecConstantOp;
+                        }),
+                  0u);
+    }
+}
+
+TEST(FoldedKernels, leaveOutWhatASceneHasNoUseFor)
+{
+    size_t all = folded("path_texel", FEATURES_ALL).size();
+    size_t plain = folded("path_texel", PLAIN).size();
+    EXPECT_LT(plain, all / 2);
+    for (uint32_t feature = 1; feature <= FEATURE_ANGULAR; feature *= 2)
+        EXPECT_LT(folded("path_texel", FEATURES_ALL & ~feature).size(), all)
+            << "feature " << feature;
+}
+
+TEST(FoldedKernels, areMadeOnce)
+{
+    EXPECT_EQ(foldedKernel("path_texel", constantsFor(0)).data(),
+              foldedKernel("path_texel", constantsFor(0)).data());
+    EXPECT_NE(foldedKernel("path_texel", constantsFor(0)).data(),
+              foldedKernel("path_texel", constantsFor(FEATURE_SPHERES)).data());
+}
+
+}  // namespace
+}  // namespace sahl
