@@ -16,6 +16,8 @@ struct VulkanScene {
 
 /// Copies the scene to the device. Throws noDevice when one of its arrays exceeds a limit of the
 /// device, deviceLost when all together exceed its memory; nothing is allocated before both checks.
-VulkanScene uploadScene(Context& context, const DeviceScene& scene, DeviceOptions::Buffers buffers);
+///   nodeWidth  of the trees that rays will walk; the others are left out
+VulkanScene uploadScene(Context& context, const DeviceScene& scene, DeviceOptions::Buffers buffers,
+                        uint32_t nodeWidth);
 
 }  // namespace sahl

@@ -204,7 +204,9 @@ void printHead(const BenchOptions& options)
 Json benchReport(const BenchOptions& options)
 {
     const std::vector<fs::path> folders = assetFolders(options);
-    std::unique_ptr<Device> device = openDeviceFor(options.common);
+    CommonOptions common = options.common;
+    common.deviceOptions.nodeWidth = 2;  // as the report's program, whose counts stand beside ours
+    std::unique_ptr<Device> device = openDeviceFor(common);
     std::vector<BenchRow> rows;
     std::vector<Missing> missing;
     printHead(options);
