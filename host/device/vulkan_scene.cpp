@@ -79,7 +79,8 @@ Buffer uploadArray(Context& context, const std::string& name, VkBufferUsageFlags
 
 }  // namespace
 
-VulkanScene uploadScene(Context& context, const DeviceScene& scene, DeviceOptions::Buffers buffers)
+VulkanScene uploadScene(Context& context, const DeviceScene& scene, DeviceOptions::Buffers buffers,
+                        bool preferTexels)
 {
     Frame frame = scene.frame;
     const std::vector<std::byte> tables = joinTables(scene, frame);
@@ -91,7 +92,7 @@ VulkanScene uploadScene(Context& context, const DeviceScene& scene, DeviceOption
         bytes[i] = arrays[i].size();
         result.bytes += bytes[i];
     }
-    result.texel = chooseTexelBuffers(context.physical, bytes, buffers);
+    result.texel = chooseTexelBuffers(context.physical, bytes, buffers, preferTexels);
     result.stepsPerSample = mostStepsPerSample(scene);
     requireMemory(context.physical, result.bytes);
 

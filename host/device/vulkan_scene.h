@@ -16,6 +16,7 @@ struct VulkanScene {
 
 /// Copies the scene to the device. Throws noDevice when one of its arrays exceeds a limit of the
 /// device, deviceLost when all together exceed its memory; nothing is allocated before both checks.
-VulkanScene uploadScene(Context& context, const DeviceScene& scene, DeviceOptions::Buffers buffers);
+VulkanScene uploadScene(Context& context, const DeviceScene& scene, DeviceOptions::Buffers buffers,
+                        bool preferTexels);
 
 }  // namespace sahl
