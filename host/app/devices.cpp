@@ -2,6 +2,7 @@
 
 #include "app/commands.h"
 #include "app/option_kinds.h"
+#include "app/tune.h"
 #include "device/device.h"
 #include "util/messages.h"
 #include "util/parallel.h"
@@ -62,13 +63,18 @@ void printDevices(const std::vector<VulkanDeviceInfo>& devices, const std::strin
 Command addDevicesCommand(CLI::App& app)
 {
     auto json = std::make_shared<bool>(false);
+    auto tune = std::make_shared<bool>(false);
     CLI::App* command =
         app.add_subcommand("devices", "list the devices of this machine")->group("Commands");
     addFlag(*command, "--json", *json, "the list as JSON on stdout");
+    addFlag(*command, "--tune", *tune,
+            "measure all variants on every Vulkan device and keep\nthe fastest for later starts (docs/variants.md)");
     command->footer("Examples:\n"
                     "  sahl devices\n"
-                    "  sahl devices --json");
-    return [json] {
+                    "  sahl devices --json\n"
+                    "  sahl devices --tune");
+    return [json, tune] {
+        if (*tune) return tuneDevices();
         std::string whyNone;
         std::vector<VulkanDeviceInfo> devices = listVulkanDevices(whyNone);
         if (*json) {

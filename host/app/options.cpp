@@ -5,6 +5,7 @@
 #include "app/sampling_options.h"
 #include "app/shading_options.h"
 #include "app/tree_options.h"
+#include "device/variants.h"
 #include "film/film.h"
 #include "saved/saved_scene.h"
 #include "util/error.h"
@@ -34,13 +35,28 @@ void addGroupShape(CLI::App& command, DeviceOptions& device)
         device.groupWidth = parseNumber("--group", text.substr(0, cross), {1, 1024});
         device.groupHeight = parseNumber("--group", text.substr(cross + 1), {1, 1024});
     };
-    std::string standard = fmt::format("{}x{}", device.groupWidth, device.groupHeight);
     command
         .add_option_function<std::string>(
             "--group", set,
-            withDefault("workgroup shape [invocations], each side 1 to 1024", standard))
+            withDefault("workgroup shape [invocations], each side 1 to 1024", "by device"))
         ->type_name("WxH")
         ->group("Testing");
+}
+
+void addVariant(CLI::App& command, DeviceOptions& device)
+{
+    auto set = [&device](const std::string& text) {
+        std::vector<std::string> names;
+        for (const Variant& variant : allVariants()) names.push_back(nameOf(variant));
+        device.variant = names[parseChoice("--variant", text, names)];
+    };
+    command
+        .add_option_function<std::string>(
+            "--variant", set,
+            withDefault("way in which a Vulkan device runs the kernels, by name\n(docs/variants.md)",
+                        "as sahl devices --tune found, else by device"))
+        ->type_name("NAME")
+        ->group("Device");
 }
 
 }  // namespace
@@ -106,6 +122,7 @@ void addDeviceOptions(CLI::App& command, CommonOptions& options)
               "native division and root, exact ones, or (auto) exact\nwhere the device's own are not")
         ->group("Device");
 
+    addVariant(command, device);
     addNumber(command, "--tile", options.tileSize, {1, 65536}, "largest side of a tile [pixels]",
               "by device")
         ->group("Testing");

@@ -239,10 +239,16 @@ void writePictures(const RenderOptions& options, const Scene& scene, const Rende
 
 /// Renders all samples, or as many as the scene's rule wants, with progress and partial pictures.
 RenderResult renderLight(const RenderOptions& options, const Scene& scene, const RenderPlan& plan,
-                         const std::vector<ImageChannel>& firstHits, Device& device)
+                         const std::vector<ImageChannel>& firstHits, Device& device,
+                         const std::function<void()>& onFirstSamples)
 {
     ProgressPrinter printer(options.common.progress, options.common.quiet, plan.sampleCount);
-    auto report = [&](const RenderProgress& progress) { printer.update(progress); };
+    bool first = true;
+    auto report = [&](const RenderProgress& progress) {
+        if (first && progress.rays > 0) onFirstSamples();
+        first = first && progress.rays == 0;
+        printer.update(progress);
+    };
     PartialPictures partial(options.partialSeconds.value_or(0), [&](const RenderResult& soFar) {
         writePictures(options, scene, soFar, device, firstHits, true);
     });
@@ -335,7 +341,8 @@ int runRender(RenderOptions& options)
     std::vector<ImageChannel> firstHits = firstHitLayers(options, prepared, plan, *device);
     seconds.firstHits = watch.lap();
     applyStopOptions(options.stop, plan);
-    RenderResult result = renderLight(options, prepared.scene, plan, firstHits, *device);
+    RenderResult result = renderLight(options, prepared.scene, plan, firstHits, *device,
+                                      [&] { seconds.firstSample = watch.total(); });
     seconds.render = watch.lap();
 
     if (result.passes == 0) options.output.film = false;  // its pixels have different samples

@@ -13,6 +13,7 @@ namespace sahl {
 /// Wall time of each stage [s].
 struct StageSeconds {
     double load = 0, build = 0, upload = 0, firstHits = 0, render = 0, write = 0, total = 0;
+    double firstSample = 0;  ///< from the start until the first samples were there
 };
 
 nlohmann::ordered_json statisticsJson(const PreparedScene& prepared, const Film& film,

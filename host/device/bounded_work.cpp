@@ -12,32 +12,36 @@ namespace {
 
 constexpr uint32_t MIN_STEP_BUDGET = 64;     // a driver that cuts fewer steps than that is broken
 constexpr uint32_t MAX_CUT_ROUNDS = 64;      // at the smallest budget, without a finished sample
-constexpr double SUBMISSION_SECONDS = 0.25;  // aimed at: watchdogs of real GPUs bite after 2 s
+constexpr double SUBMISSION_SECONDS = 0.25;  // watchdogs of real GPUs bite after 2 s
+constexpr double SOFTWARE_SUBMISSION_SECONDS = 4;  // nothing waits for these
 
 }  // namespace
 
 BoundedWork::BoundedWork(const PhysicalDevice& device, uint32_t stepBudget,
                          DeviceStatistics& statistics)
-    : device_(device.name), statistics_(statistics)
+    : device_(device.name),
+      statistics_(statistics),
+      submissionSeconds_(device.kind == "software" ? SOFTWARE_SUBMISSION_SECONDS : SUBMISSION_SECONDS)
 {
     statistics_.stepBudget = stepBudget > 0 ? stepBudget : defaultStepBudget(device);
     minStepBudget_ = std::min(MIN_STEP_BUDGET, statistics_.stepBudget);
 }
 
 void BoundedWork::finish(const BoundedTask& task, RoundState state,
-                         const std::function<RoundState(uint32_t dispatches)>& runRound)
+                         const std::function<RoundState(uint32_t samples)>& runRound)
 {
     uint64_t idleSteps = 0;  // offered since the last sample was finished
     cutRounds_ = 0;
     while (state.samplesMissing > 0) {
         if (state.faults != 0) handleFaults(task, state.faults);
-        uint32_t dispatches = state.samplesMissing;
         uint64_t before = state.samplesDone;
-        state = runRound(dispatches);
+        uint64_t dispatches = statistics_.dispatches;
+        state = runRound(state.samplesMissing);
+        dispatches = statistics_.dispatches - dispatches;
         statistics_.resumptions += dispatches;
         if (state.samplesDone > before) cutRounds_ = 0;
         bool progress = state.samplesDone > before || state.faults != 0;
-        idleSteps = progress ? 0 : idleSteps + uint64_t{dispatches} * statistics_.stepBudget;
+        idleSteps = progress ? 0 : idleSteps + dispatches * statistics_.stepBudget;
         if (idleSteps > task.stepsPerSample + statistics_.stepBudget)
             throw Error(ErrorKind::deviceLost,
                         fmt::format("{}: '{}' makes no progress: {} steps for each path and none "
@@ -68,20 +72,19 @@ void BoundedWork::handleFaults(const BoundedTask& task, uint32_t faults)
                                 task.name, device_, statistics_.stepBudget));
 }
 
-void BoundedWork::runInParts(uint64_t pixels, uint32_t dispatches,
+void BoundedWork::runInParts(uint64_t pixels, uint32_t samples,
                              const std::function<void(uint32_t, bool, bool)>& submit)
 {
-    for (uint32_t done = 0; done < dispatches;) {
+    for (uint32_t done = 0; done < samples;) {
         double fit =
-            secondsPerPixel_ > 0 ? SUBMISSION_SECONDS / (secondsPerPixel_ * double(pixels)) : 1;
-        auto count = static_cast<uint32_t>(std::clamp(fit, 1.0, double(dispatches - done)));
+            secondsPerPixel_ > 0 ? submissionSeconds_ / (secondsPerPixel_ * double(pixels)) : 1;
+        auto count = static_cast<uint32_t>(std::clamp(fit, 1.0, double(samples - done)));
         auto start = std::chrono::steady_clock::now();
-        submit(count, done == 0, done + count == dispatches);
+        submit(count, done == 0, done + count == samples);
         std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         secondsPerPixel_ = seconds.count() / (double(pixels) * count);
         done += count;
     }
-    statistics_.dispatches += dispatches;
 }
 
 }  // namespace sahl

@@ -32,13 +32,13 @@ public:
     /// Goes on from `state` until no sample is missing: paths that ran out of steps go on, pixels
     /// in which a loop was cut go again with fewer steps. Throws deviceLost when that does not
     /// help.
-    ///   runRound(n)  runs n dispatches, in submissions as below
+    ///   runRound(n)  gives every pixel up to n samples, in submissions as below
     void finish(const BoundedTask& task, RoundState state,
-                const std::function<RoundState(uint32_t dispatches)>& runRound);
+                const std::function<RoundState(uint32_t samples)>& runRound);
 
-    /// Calls submit(n, isFirst, isLast) so that the n add up to `dispatches` and each call takes
-    /// about a quarter of a second.
-    void runInParts(uint64_t pixels, uint32_t dispatches,
+    /// Calls submit(n, isFirst, isLast) so that the n add up to `samples` and no call takes much longer
+    /// than a watchdog would stand.
+    void runInParts(uint64_t pixels, uint32_t samples,
                     const std::function<void(uint32_t count, bool isFirst, bool isLast)>& submit);
 
 private:
@@ -47,7 +47,8 @@ private:
     std::string device_;  // its name
     DeviceStatistics& statistics_;
     uint32_t minStepBudget_;
-    double secondsPerPixel_ = 0;  // of one dispatch, as last measured; 0 before the first
+    double submissionSeconds_;    // aimed at
+    double secondsPerPixel_ = 0;  // of one sample, as last measured; 0 before the first
     uint32_t cutRounds_ = 0;      // in a row, at the smallest step budget
 };
 

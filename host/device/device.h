@@ -69,6 +69,7 @@ struct DeviceStatistics {
     uint64_t sceneBytes = 0;    ///< on the device
     bool exactMath = false;     ///< division and root made exact rather than the device's own
     bool texelBuffers = false;  ///< scene read through texel buffers rather than storage buffers
+    std::string variant;        ///< way in which kernels run (variants.h); empty on the CPU
 };
 
 /// What a pass of adaptive sampling did.
@@ -168,7 +169,8 @@ struct DeviceOptions {
     enum class Buffers { automatic, texel, storage } buffers = Buffers::automatic;
     /// Division and square root by the device itself, made exact, or as a test of the device decides.
     enum class Math { automatic, native, exact } math = Math::automatic;
-    uint32_t groupWidth = 8, groupHeight = 8;
+    std::string variant;                      ///< of variants.h; empty: as was tuned, else by the driver
+    uint32_t groupWidth = 0, groupHeight = 0;  ///< 0: by the variant
     uint32_t stepBudget = 0;           ///< 0: by the driver; steps one invocation takes a dispatch
     bool validation = false;           ///< Khronos validation with synchronization checks, if installed
 };

@@ -3,6 +3,7 @@
 #include "device/exact_math.h"
 #include "device/kernels.h"
 #include "device/scene_features.h"
+#include "device/variants.h"
 #include "device/vulkan_adaptive.h"
 #include "device/vulkan_limits.h"
 #include "device/vulkan_scene.h"
@@ -43,6 +44,20 @@ std::string tileName(const TileRequest& tile)
                        uint64_t{tile.firstSample} + tile.sampleCount - 1);
 }
 
+/// The variant that the options name, or that was tuned, or that suits the driver; with the shape of a workgroup that
+/// the options name.
+Variant chooseVariant(const PhysicalDevice& device, const DeviceOptions& options)
+{
+    Variant variant = standardVariant(device.driver);
+    if (!options.variant.empty())
+        variant = variantNamed(options.variant);
+    else if (std::optional<Variant> tuned = tunedVariant(device.name, device.driver))
+        variant = *tuned;
+    if (options.groupWidth > 0) variant.groupWidth = options.groupWidth;
+    if (options.groupHeight > 0) variant.groupHeight = options.groupHeight;
+    return variant;
+}
+
 class VulkanDevice final : public Device {
 public:
     VulkanDevice(std::unique_ptr<Context> context, const DeviceOptions& options);
@@ -69,12 +84,13 @@ private:
     void bindAll(ComputePipeline& pipeline);
     void renderBlocks(const TileRequest& tile, std::span<PixelBlock> blocks);
     void requireTile(const TileRequest& tile, size_t blockCount) const;
-    RoundState runRound(const TileRequest& tile, uint32_t dispatches, bool begin,
+    RoundState runRound(const TileRequest& tile, uint32_t samples, bool begin,
                         std::span<PixelBlock> blocks);
-    void submit(const TileRequest& tile, uint32_t dispatches, bool begin, bool end);
+    void submit(const TileRequest& tile, uint32_t samples, bool begin, bool end);
 
     std::unique_ptr<Context> context_;  // stands first: everything below is made from it
     DeviceOptions options_;
+    Variant variant_;
     std::array<uint32_t, 2> group_;
     DeviceStatistics statistics_;
     BoundedWork work_;
@@ -98,9 +114,11 @@ private:
 VulkanDevice::VulkanDevice(std::unique_ptr<Context> context, const DeviceOptions& options)
     : context_(std::move(context)),
       options_(options),
-      group_(chooseGroupShape(context_->physical, options.groupWidth, options.groupHeight)),
+      variant_(chooseVariant(context_->physical, options)),
+      group_(chooseGroupShape(context_->physical, variant_.groupWidth, variant_.groupHeight)),
       work_(context_->physical, options.stepBudget, statistics_)
 {
+    statistics_.variant = nameOf(variant_);
     statistics_.exactMath = chooseExactMath(*context_, options.math);
 }
 
@@ -118,7 +136,8 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     const uint32_t nodeWidth = nodeWidthFor(scene, options_.nodeWidth);
     uint32_t stackSize = chooseStackSize(stackEntriesFor(scene, nodeWidth));
     auto start = std::chrono::steady_clock::now();
-    auto uploaded = std::make_unique<VulkanScene>(uploadScene(*context_, scene, options_.buffers, nodeWidth));
+    auto uploaded = std::make_unique<VulkanScene>(
+        uploadScene(*context_, scene, options_.buffers, variant_.texelBuffers, nodeWidth));
     statistics_.uploadSeconds += secondsSince(start);
     preparePipeline(uploaded->texel, featuresOf(scene), stackSize, nodeWidth);
     scene_ = std::move(uploaded);
@@ -303,21 +322,21 @@ void VulkanDevice::renderBlocks(const TileRequest& tile, std::span<PixelBlock> b
 {
     RoundState state = runRound(tile, tile.sampleCount, true, blocks);
     work_.finish({tileName(tile), scene_->stepsPerSample, pipelineStack_}, state,
-                 [&](uint32_t dispatches) { return runRound(tile, dispatches, false, blocks); });
+                 [&](uint32_t samples) { return runRound(tile, samples, false, blocks); });
 }
 
-/// Runs `dispatches` dispatches and reads the blocks back. `begin`: the tile's blocks are cleared before.
-RoundState VulkanDevice::runRound(const TileRequest& tile, uint32_t dispatches, bool begin,
+/// Gives every pixel up to so many samples and reads the blocks back. `begin`: the tile's blocks are cleared before.
+RoundState VulkanDevice::runRound(const TileRequest& tile, uint32_t samples, bool begin,
                                   std::span<PixelBlock> blocks)
 {
-    work_.runInParts(blocks.size(), dispatches, [&](uint32_t count, bool isFirst, bool isLast) {
+    work_.runInParts(blocks.size(), samples, [&](uint32_t count, bool isFirst, bool isLast) {
         submit(tile, count, begin && isFirst, isLast);
     });
     readBuffer(pixels_, std::as_writable_bytes(blocks));
     return inspect(blocks, tile.sampleCount);
 }
 
-void VulkanDevice::submit(const TileRequest& tile, uint32_t dispatches, bool begin, bool end)
+void VulkanDevice::submit(const TileRequest& tile, uint32_t samples, bool begin, bool end)
 {
     Dispatch job = {};
     job.tileX = tile.x;
@@ -327,6 +346,9 @@ void VulkanDevice::submit(const TileRequest& tile, uint32_t dispatches, bool beg
     job.firstSample = tile.firstSample;
     job.sampleCount = tile.sampleCount;
     job.stepBudget = statistics_.stepBudget;
+    job.samplesAtOnce = std::min(samples, variant_.samplesAtOnce);
+    const uint32_t dispatches = (samples + job.samplesAtOnce - 1) / job.samplesAtOnce;
+    statistics_.dispatches += dispatches;
     std::array<uint32_t, 3> groups = {(tile.width + group_[0] - 1) / group_[0],
                                       (tile.height + group_[1] - 1) / group_[1], 1};
     uint64_t bytes = uint64_t{tile.width} * tile.height * sizeof(PixelBlock);

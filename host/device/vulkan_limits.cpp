@@ -87,15 +87,17 @@ std::string whyUnusable(const PhysicalDevice& device)
 }
 
 bool chooseTexelBuffers(const PhysicalDevice& device, const SceneBytes& bytes,
-                        DeviceOptions::Buffers wanted)
+                        DeviceOptions::Buffers wanted, bool preferTexels)
 {
     std::string noTexels = whyNoTexelBuffers(device);
     if (noTexels.empty()) noTexels = whyTooLarge(device, bytes, true);
     std::string noStorage = whyNoStorageBuffers(device);
     if (noStorage.empty()) noStorage = whyTooLarge(device, bytes, false);
 
-    if (wanted != DeviceOptions::Buffers::storage && noTexels.empty()) return true;
-    if (wanted != DeviceOptions::Buffers::texel && noStorage.empty()) return false;
+    const bool texelsFit = wanted != DeviceOptions::Buffers::storage && noTexels.empty();
+    const bool storageFits = wanted != DeviceOptions::Buffers::texel && noStorage.empty();
+    if (texelsFit && (preferTexels || !storageFits)) return true;
+    if (storageFits) return false;
     std::string why = fmt::format("texel buffers: {}; storage buffers: {}", noTexels, noStorage);
     if (wanted == DeviceOptions::Buffers::texel) why = "texel buffers: " + noTexels;
     if (wanted == DeviceOptions::Buffers::storage) why = "storage buffers: " + noStorage;

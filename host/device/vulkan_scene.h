@@ -18,6 +18,6 @@ struct VulkanScene {
 /// device, deviceLost when all together exceed its memory; nothing is allocated before both checks.
 ///   nodeWidth  of the trees that rays will walk; the others are left out
 VulkanScene uploadScene(Context& context, const DeviceScene& scene, DeviceOptions::Buffers buffers,
-                        uint32_t nodeWidth);
+                        bool preferTexels, uint32_t nodeWidth);
 
 }  // namespace sahl

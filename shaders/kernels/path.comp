@@ -1,4 +1,6 @@
-// The megakernel: every invocation owns one pixel of the tile and takes it up to one sample further.
+// The megakernel: every invocation owns one pixel of the tile and takes it some samples further. An invocation
+// whose path has ended begins its next sample at once: machines that run several invocations in step wait for the
+// longest path of all samples together, not of each.
 // With SAHL_FIRST_HITS a sample ends at what the camera ray meets, and goes into `firstHits`.
 //
 // A path that runs out of steps is saved and goes on in the next dispatch. An invocation in which a
@@ -29,33 +31,61 @@ layout(push_constant) uniform DispatchBlock
 #include "pathtrace/pathtrace.glsl"
 #include "kernels/suspend.glsl"
 
+#ifdef SAHL_FIRST_HITS
+FirstHits sums;
+#endif
+
+/// Takes the sample one ray further; when it has ended, adds it to the pixel.
+void stepSample(inout PathState path, inout Traversal walk, inout PixelBlock block)
+{
+#ifdef SAHL_FIRST_HITS
+    advanceFirstHit(path, walk);
+#else
+    stepPath(path, walk);
+#endif
+    if (path.phase != PHASE_ENDED || faults != 0u) return;
+#ifdef SAHL_FIRST_HITS
+    addFirstHit(path, walk, block.samplesDone == 0u, sums);
+    block.samplesDone++;
+#else
+    addSample(path, block);
+#endif
+}
+
 void main()
 {
     uvec2 at = gl_GlobalInvocationID.xy;
     if (at.x >= job.tileWidth || at.y >= job.tileHeight) return;
     uint index = at.y * job.tileWidth + at.x;
     PixelBlock block = pixels[index];
-    if (block.samplesDone >= job.sampleCount) return;
+    uint wanted = min(job.sampleCount, block.samplesDone + job.samplesAtOnce);
+    if (block.samplesDone >= wanted) return;
 
+#ifdef SAHL_FIRST_HITS
+    sums = noFirstHits();
+    if (block.samplesDone != 0u) sums = firstHits[index];
+#endif
     stepsLeft = job.stepBudget;
     faults = 0u;
-    tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
     PathState path;
     Traversal walk;
     if (block.status == BLOCK_SUSPENDED) {
         resumePath(index, path, walk);
     } else {
-        path = beginPath(job.tileX + at.x, job.tileY + at.y, job.firstSample + block.samplesDone);
-        walk = beginPathTraversal(path);
+        path.phase = PHASE_ENDED;
     }
-#ifdef SAHL_FIRST_HITS
-    advanceFirstHit(path, walk);
-#else
-    advancePath(path, walk);
-#endif
+    while (block.samplesDone != wanted && stepsLeft != 0u && faults == 0u) {
+        if (path.phase == PHASE_ENDED) {
+            tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
+            path = beginPath(job.tileX + at.x, job.tileY + at.y, job.firstSample + block.samplesDone);
+            walk = beginPathTraversal(path);
+        }
+        stepSample(path, walk, block);
+    }
+    if (block.samplesDone != wanted && stepsLeft != 0u) faults |= FAULT_LOOP_CUT;
 
-    bool ended = path.phase == PHASE_ENDED;
-    if (!ended && faults == 0u) {
+    bool between = path.phase == PHASE_ENDED;
+    if (!between && faults == 0u) {
         suspendPath(index, path, walk);
         // Half saved is as good as lost: the sample begins again.
         if (faults != 0u) pixels[index].status = BLOCK_IDLE;
@@ -65,18 +95,9 @@ void main()
         return;
     }
     block.faults = 0u;
-    if (ended) {
-#ifdef SAHL_FIRST_HITS
-        bool isFirst = block.samplesDone == 0u;
-        FirstHits sums = firstHits[index];
-        if (isFirst) sums = noFirstHits();
-        addFirstHit(path, walk, isFirst, sums);
-        firstHits[index] = sums;
-        block.samplesDone++;
-#else
-        addSample(path, block);
-#endif
-    }
-    block.status = ended ? BLOCK_IDLE : BLOCK_SUSPENDED;
+    block.status = between ? BLOCK_IDLE : BLOCK_SUSPENDED;
     pixels[index] = block;
+#ifdef SAHL_FIRST_HITS
+    firstHits[index] = sums;
+#endif
 }

@@ -175,29 +175,31 @@ void finishShadow(Traversal hit, INOUT(PathState) path)
     }
 }
 
+/// Takes a path one ray further, or as far along it as the steps allow.
+void stepPath(INOUT(PathState) path, INOUT(Traversal) walk)
+{
+    bool shadow = inShadowPhase(path);
+    vec3 org = shadow ? path.shadowOrg : path.org;
+    vec3 dir = shadow ? path.shadowDir : path.dir;
+    bool over = HAS_PHONG && path.phase == PHASE_LIGHT;
+    if (over) {
+        stepsLeft--;
+        walk = path.hit;
+    } else {
+        over = traverse(org, dir, shadow, walk);
+    }
+    if (!over || faults != 0u) return;
+    if (shadow) {
+        finishShadow(walk, path);
+    } else {
+        shadePath(walk, path);
+    }
+    walk = beginPathTraversal(path);
+}
+
 /// Takes a path as far as the steps allow: until it has ended, stepsLeft is 0, or a fault.
 void advancePath(INOUT(PathState) path, INOUT(Traversal) walk)
 {
-    while (path.phase != PHASE_ENDED && stepsLeft != 0u) {
-        bool shadow = inShadowPhase(path);
-        vec3 org = shadow ? path.shadowOrg : path.org;
-        vec3 dir = shadow ? path.shadowDir : path.dir;
-        bool over = HAS_PHONG && path.phase == PHASE_LIGHT;
-        if (over) {
-            stepsLeft--;
-            walk = path.hit;
-        } else {
-            over = traverse(org, dir, shadow, walk);
-        }
-        if (faults != 0u) break;
-        if (over) {
-            if (shadow) {
-                finishShadow(walk, path);
-            } else {
-                shadePath(walk, path);
-            }
-            walk = beginPathTraversal(path);
-        }
-    }
+    while (path.phase != PHASE_ENDED && stepsLeft != 0u && faults == 0u) stepPath(path, walk);
     if (path.phase != PHASE_ENDED && stepsLeft != 0u) faults |= FAULT_LOOP_CUT;
 }

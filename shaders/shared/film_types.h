@@ -126,7 +126,7 @@ struct SuspendedPath
 GPU_STRUCT_SIZE(SuspendedPath, 256 + 4 * 64);
 GPU_FIELD(SuspendedPath, stack, 256);
 
-// One dispatch: up to one sample more for every pixel of a tile. Push constants.
+// One dispatch: some samples more for every pixel of a tile. Push constants.
 struct Dispatch
 {
     uint tileX;        // [pixels] in the full picture
@@ -136,7 +136,7 @@ struct Dispatch
     uint firstSample;  // of the block, a multiple of BLOCK_SIZE
     uint sampleCount;  // of the block, 1 to BLOCK_SIZE
     uint stepBudget;   // steps of traversal that one invocation may take
-    uint unused0;
+    uint samplesAtOnce;  // that the dispatch may add to a pixel
 };
 GPU_STRUCT_SIZE(Dispatch, 32);
 

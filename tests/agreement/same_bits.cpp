@@ -1,6 +1,7 @@
 // The film is a function of the scene and the sample counts alone: whatever else changes, no bit
 // does.
 
+#include "device/variants.h"
 #include "shared/bindings.h"
 #include "support/device_test.h"
 #include "support/render_scenes.h"
@@ -63,6 +64,15 @@ TEST_F(SameBits, forEveryWorkgroupShape)
         options.groupWidth = width;
         options.groupHeight = height;
         EXPECT_TRUE(onDevice(options) == reference()) << width << "x" << height;
+    }
+}
+
+TEST_F(SameBits, forEveryVariantThatCanBeTuned)
+{
+    for (const Variant& variant : allVariants()) {
+        DeviceOptions options;
+        options.variant = nameOf(variant);
+        EXPECT_TRUE(onDevice(options) == reference()) << options.variant;
     }
 }
 

@@ -55,6 +55,25 @@ TEST_F(DeviceProgram, indexUuidAndName_chooseTheSameDevice)
     }
 }
 
+TEST_F(DeviceProgram, variantThatWasTuned_runsUnlessAnotherIsNamed)
+{
+    fs::create_directories(folder / "sahl");
+    writeText(folder / "sahl" / "variants.tsv", name(first()) + "\t" + driver(first()) + "\tstorage-16x8-by1\n");
+    auto variantOf = [&](Arguments more) {
+        Arguments arguments = {"render", "ball.json", "--device", "0", "--stats", "s.json", "-o", "a.pfm"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        RunOptions options = here();
+        options.environment["XDG_CACHE_HOME"] = folder.string();
+        EXPECT_EQ(sahl(arguments, options).exitCode, 0);
+        const Json device = Json::parse(textOf(folder / "s.json"))["device"];
+        EXPECT_EQ(device["texelBuffers"], device["variant"].get<std::string>().starts_with("texel"));
+        return device["variant"].get<std::string>();
+    };
+    EXPECT_EQ(variantOf({}), "storage-16x8-by1");
+    EXPECT_EQ(variantOf({"--variant", "texel-8x8-by8"}), "texel-8x8-by8");
+    EXPECT_EQ(sahl({"render", "ball.json", "--variant", "texel"}, here()).exitCode, 2);
+}
+
 TEST_F(DeviceProgram, windowOfThePicture_equalsTheCpus)
 {
     auto windowOn = [&](const char* device) {

@@ -1,0 +1,41 @@
+// Ways to run the kernels on a Vulkan device. All give the same bits; which is the fastest depends
+// on the driver.
+#pragma once
+
+#include "device/device.h"
+
+namespace sahl {
+
+struct Variant {
+    bool texelBuffers =
+        true;  ///< the scene is read through them wherever it fits, else storage buffers
+    uint32_t groupWidth = 8, groupHeight = 8;
+    uint32_t samplesAtOnce = 0;  ///< that a dispatch may take a pixel further
+    bool operator==(const Variant&) const = default;
+};
+
+/// "texel-8x8-by8": how the scene is read, shape of a workgroup, samples at once.
+std::string nameOf(const Variant& variant);
+
+/// All that `sahl devices --tune` tries and `--variant` takes.
+std::vector<Variant> allVariants();
+
+/// Throws usage with the list of names.
+Variant variantNamed(const std::string& name);
+
+/// What runs where nothing was tuned: by measurements of drivers. `driver` is
+/// VulkanDeviceInfo::driver.
+Variant standardVariant(const std::string& driver);
+
+/// The variant that `sahl devices --tune` found for the device and driver, or nothing: where it was
+/// not tuned, or by other names than today's. Never throws.
+std::optional<Variant> tunedVariant(const std::string& device, const std::string& driver);
+
+/// Keeps it for later starts, in tuningFile(). Throws cannotWrite.
+void keepTunedVariant(const std::string& device, const std::string& driver, const Variant& variant);
+
+/// variants.tsv in the folder `sahl` of the user's cache: $XDG_CACHE_HOME, else ~/.cache. Empty
+/// where neither is known.
+std::string tuningFile();
+
+}  // namespace sahl
