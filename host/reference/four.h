@@ -25,6 +25,32 @@ inline uint pick(const uvec4& v, uint i)
     return (&v.x)[i];
 }
 
+/// The component of v along an axis: where v lies in memory, one read.
+inline float pickAxis(const vec3& v, uint axis)
+{
+    return (&v.x)[axis];
+}
+
+/// As pick(), by branches: the processor guesses which, and reads the next node before it is known.
+/// The empty statements keep the compiler from making one selection of them.
+inline uint pickByGuess(const uvec4& v, uint i)
+{
+    switch (i) {
+    case 0:
+        asm volatile("");
+        return v.x;
+    case 1:
+        asm volatile("");
+        return v.y;
+    case 2:
+        asm volatile("");
+        return v.z;
+    default:
+        asm volatile("");
+        return v.w;
+    }
+}
+
 inline Four fours(float x)
 {
     return Four{x, x, x, x};

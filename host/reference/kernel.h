@@ -49,6 +49,14 @@ struct Kernel {
 
     const BvhNode& loadNode(uint index) const { return nodes[index]; }
     const WideNode& loadWideNode(uint index) const { return wideNodes[index]; }
+    /// Has what a reference to a wide node or a leaf leads to read ahead.
+    void expectRef(uint ref) const
+    {
+        if ((ref & REF_LEAF) != 0)
+            __builtin_prefetch(primitives.data() + ((ref & ~REF_LEAF) >> LEAF_COUNT_BITS));
+        else if ((ref & REF_NOT_INNER) == 0)
+            __builtin_prefetch(wideNodes.data() + ref);
+    }
     const Primitive& loadPrimitive(uint index) const { return primitives[index]; }
     const TriangleCorners& loadCorners(uint index) const { return triangleCorners[index]; }
     const Material& loadMaterial(uint index) const { return materials[index]; }

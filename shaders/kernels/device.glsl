@@ -48,6 +48,9 @@ WideNode loadWideNode(uint index)
                     FETCH(nodeWords, index * 4u + 2u), FETCH(nodeWords, index * 4u + 3u));
 }
 
+// Of use on processors that read ahead; see host/reference/kernel.h.
+void expectRef(uint ref) {}
+
 BvhNode loadNode(uint index)
 {
     uvec4 a = FETCH(nodeWords, index * 4u);

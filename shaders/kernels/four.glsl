@@ -7,6 +7,10 @@ uvec4 fourUints(uvec4 v) { return v; }
 
 uint pick(uvec4 v, uint i) { return v[i]; }
 
+float pickAxis(vec3 v, uint axis) { return axis == 0u ? v.x : (axis == 1u ? v.y : v.z); }
+
+uint pickByGuess(uvec4 v, uint i) { return v[i]; }
+
 vec4 fours(float x) { return vec4(x); }
 
 // By way of int, which all machines convert fast; exact below 2^24.

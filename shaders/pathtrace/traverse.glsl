@@ -43,7 +43,7 @@ vec3 greater3(vec3 a, vec3 b)
 }
 
 /// Corners of the widened box of a primitive. The host builds the tree from the same boxes.
-void primitiveBox(Primitive shape, OUT(vec3) lo, OUT(vec3) hi)
+void primitiveBox(READ(Primitive) shape, OUT(vec3) lo, OUT(vec3) hi)
 {
     if (HAS_SPHERES && shape.shape == SHAPE_SPHERE) {
         lo = shape.p0 - vec3(shape.p1.x);
@@ -80,7 +80,7 @@ WalkRay makeWalkRay(vec3 org, vec3 dir, float entry, uint firstNumber)
     ray.material = NO_MATERIAL;
     ray.boxes = makeBoxRay(org, dir);
     if (NODE_WIDTH == 4u) ray.onGrid = makeGridRay(ray.boxes, frame.gridAt, frame.gridScale);
-    ray.sheared = shearRay(dir);
+    ray.sheared = shearRay(org, dir);
     return ray;
 }
 
@@ -113,9 +113,9 @@ WalkRay walkRayOf(Traversal walk, vec3 org, vec3 dir)
 
 /// Tests the primitive in `slot` and keeps it in `walk` when it is the closest so far. Where its material has a
 /// hole there is no hit, whoever asks: so the closest hit depends on no order, as above.
-void visitPrimitive(WalkRay ray, uint slot, INOUT(Traversal) walk)
+void visitPrimitive(READ(WalkRay) ray, uint slot, INOUT(Traversal) walk)
 {
-    Primitive shape = loadPrimitive(slot);
+    READ(Primitive) shape = loadPrimitive(slot);
     float t;
     float b1 = 0.0f;
     float b2 = 0.0f;
@@ -169,7 +169,7 @@ uint visitNode(BoxRay boxes, INOUT(Traversal) walk)
 }
 
 /// Visits all primitives of the leaf that the walk is at.
-void visitLeaf(WalkRay ray, INOUT(Traversal) walk)
+void visitLeaf(READ(WalkRay) ray, INOUT(Traversal) walk)
 {
     uint first = (walk.ref & ~REF_LEAF) >> LEAF_COUNT_BITS;
     uint count = (walk.ref & (MAX_LEAF_SIZE - 1u)) + 1u;

@@ -12,14 +12,12 @@ struct ShearedRay
     float sx;  // shear
     float sy;
     float sz;
+    float ox;  // origin along kx, ky, kz
+    float oy;
+    float oz;
 };
 
-float pickAxis(vec3 v, uint axis)
-{
-    return axis == 0u ? v.x : (axis == 1u ? v.y : v.z);
-}
-
-ShearedRay shearRay(vec3 dir)
+ShearedRay shearRay(vec3 org, vec3 dir)
 {
     vec3 size = absolute3(dir);
     ShearedRay ray;
@@ -29,6 +27,9 @@ ShearedRay shearRay(vec3 dir)
     ray.sz = quotient(1.0f, pickAxis(dir, ray.kz));
     ray.sx = pickAxis(dir, ray.kx) * ray.sz;
     ray.sy = pickAxis(dir, ray.ky) * ray.sz;
+    ray.ox = pickAxis(org, ray.kx);
+    ray.oy = pickAxis(org, ray.ky);
+    ray.oz = pickAxis(org, ray.kz);
     return ray;
 }
 
@@ -36,7 +37,7 @@ ShearedRay shearRay(vec3 dir)
 /// certain to be in front of the origin. A distance weighted by barycentric coordinates is off by
 /// hundreds of roundings on long triangles; from a normal made of the two shorter edges it is off by
 /// about one rounding of the farthest corner's distance, divided by the cosine between ray and normal.
-float planeDistance(vec3 org, vec3 dir, Primitive triangle)
+float planeDistance(vec3 org, vec3 dir, READ(Primitive) triangle)
 {
     vec3 e0 = triangle.p1 - triangle.p0;
     vec3 e1 = triangle.p2 - triangle.p1;
@@ -72,7 +73,7 @@ float planeDistance(vec3 org, vec3 dir, Primitive triangle)
 ///   t       distance [m], larger than its own rounding error; no upper end is applied
 ///   b1, b2  barycentric coordinates of p1 and p2
 /// Returns false for a miss, a degenerate triangle and anything that is not a number.
-bool intersectTriangle(vec3 org, vec3 dir, ShearedRay ray, Primitive triangle, OUT(float) t,
+bool intersectTriangle(vec3 org, vec3 dir, ShearedRay ray, READ(Primitive) triangle, OUT(float) t,
                        OUT(float) b1, OUT(float) b2)
 {
     t = 0.0f;
@@ -80,18 +81,15 @@ bool intersectTriangle(vec3 org, vec3 dir, ShearedRay ray, Primitive triangle, O
     b2 = 0.0f;
 
     // Corners relative to the origin, sheared
-    vec3 a = triangle.p0 - org;
-    vec3 b = triangle.p1 - org;
-    vec3 c = triangle.p2 - org;
-    float az = pickAxis(a, ray.kz);
-    float bz = pickAxis(b, ray.kz);
-    float cz = pickAxis(c, ray.kz);
-    float ax = pickAxis(a, ray.kx) - ray.sx * az;
-    float ay = pickAxis(a, ray.ky) - ray.sy * az;
-    float bx = pickAxis(b, ray.kx) - ray.sx * bz;
-    float by = pickAxis(b, ray.ky) - ray.sy * bz;
-    float cx = pickAxis(c, ray.kx) - ray.sx * cz;
-    float cy = pickAxis(c, ray.ky) - ray.sy * cz;
+    float az = pickAxis(triangle.p0, ray.kz) - ray.oz;
+    float bz = pickAxis(triangle.p1, ray.kz) - ray.oz;
+    float cz = pickAxis(triangle.p2, ray.kz) - ray.oz;
+    float ax = (pickAxis(triangle.p0, ray.kx) - ray.ox) - ray.sx * az;
+    float ay = (pickAxis(triangle.p0, ray.ky) - ray.oy) - ray.sy * az;
+    float bx = (pickAxis(triangle.p1, ray.kx) - ray.ox) - ray.sx * bz;
+    float by = (pickAxis(triangle.p1, ray.ky) - ray.oy) - ray.sy * bz;
+    float cx = (pickAxis(triangle.p2, ray.kx) - ray.ox) - ray.sx * cz;
+    float cy = (pickAxis(triangle.p2, ray.ky) - ray.oy) - ray.sy * cz;
 
     // Edge functions: neighbours compute the same products for a shared edge, so no ray slips through
     float u = cx * by - cy * bx;

@@ -67,21 +67,21 @@ uint lesserUint(uint a, uint b) { return b < a ? b : a; }
 
 uint greaterUint(uint a, uint b) { return a < b ? b : a; }
 
-/// The reference of the child that a key of intersectFour() names.
-uint childOf(READ(WideNode) node, uint key)
-{
-    return pick(node.refs, TRAVERSAL_ORDER == ORDER_RIGHT_FIRST ? 3u - (key & 3u) : key & 3u);
-}
+/// The child that a key of intersectFour() names.
+uint childNumber(uint key) { return TRAVERSAL_ORDER == ORDER_RIGHT_FIRST ? 3u - (key & 3u) : key & 3u; }
 
-/// Pushes the child that a key of intersectFour() names, if it is met. There is room for it in any case.
+uint childOf(READ(WideNode) node, uint key) { return pick(node.refs, childNumber(key)); }
+
 void pushChild(READ(WideNode) node, uint key, INOUT(Traversal) walk)
 {
-    stack[walk.stackSize] = childOf(node, key);
-    walk.stackSize += key != WIDE_MISS ? 1u : 0u;
+    uint ref = childOf(node, key);
+    expectRef(ref);
+    stack[walk.stackSize] = ref;
+    walk.stackSize++;
 }
 
 /// Visits an inner node of the wide tree: returns the child to visit next, the nearest one that is met, and
-/// pushes the others, the farthest first.
+/// pushes the others that are met, the farthest first.
 uint visitWideNode(BoxRay ray, INOUT(Traversal) walk)
 {
     READ(WideNode) node = loadWideNode(walk.ref);
@@ -95,13 +95,20 @@ uint visitWideNode(BoxRay ray, INOUT(Traversal) walk)
     uint first = lesserUint(a, c);
     uint e = greaterUint(a, c);
     uint f = lesserUint(b, d);
+    uint second = lesserUint(e, f);
+    uint third = greaterUint(e, f);
+    uint fourth = greaterUint(b, d);
+    if (first == WIDE_MISS) return popRef(walk);
     if (walk.stackSize + 3u > STACK_SIZE) {
         faults |= FAULT_STACK_OVERFLOW;
         return REF_NONE;
     }
-    pushChild(node, greaterUint(b, d), walk);
-    pushChild(node, greaterUint(e, f), walk);
-    pushChild(node, lesserUint(e, f), walk);
-    if (first == WIDE_MISS) return popRef(walk);
-    return childOf(node, first);
+    if (second != WIDE_MISS) {
+        if (third != WIDE_MISS) {
+            if (fourth != WIDE_MISS) pushChild(node, fourth, walk);
+            pushChild(node, third, walk);
+        }
+        pushChild(node, second, walk);
+    }
+    return pickByGuess(node.refs, childNumber(first));
 }

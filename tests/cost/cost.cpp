@@ -24,7 +24,15 @@ struct Tree {
     const char* name;
     DeviceOptions options;
 };
-const std::vector<Tree> TREES = {{"binary", {}}};
+
+DeviceOptions withNodesOf(uint32_t width)
+{
+    DeviceOptions options;
+    options.nodeWidth = width;
+    return options;
+}
+
+const std::vector<Tree> TREES = {{"binary", withNodesOf(2)}, {"wide", withNodesOf(4)}};
 
 struct CostScene {
     const char* name;
@@ -111,7 +119,7 @@ TEST(Cost, ofEveryScene_isNotAboveItsBaseline)
 
 TEST(Cost, ofAWorseWalk_isFound)
 {
-    DeviceOptions wrongWay;
+    DeviceOptions wrongWay = withNodesOf(2);
     wrongWay.traversalOrder = ORDER_LEFT_FIRST;
     const Json before = baseline().at("binary");
     EXPECT_NE(excess(costOf(SCENES[0], wrongWay), before.at("default")), "");
