@@ -60,7 +60,7 @@ TestsPerRay countTests(const DeviceScene& scene, const Bvh& tree, bool asWide, c
     changed.primitives = tree.primitives;
     changed.frame.rootRef = tree.rootRef;
     changed.treeDepth = tree.statistics.depth;
-    changed.wide = {};
+    changed.wide = {};  // the wide tree was made of another one
     WideTrees wide;
     if (asWide) {
         wide = widen(tree.nodes, {}, tree.rootRef, reachOf(scene.frame.camera));
