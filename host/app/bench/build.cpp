@@ -52,7 +52,8 @@ struct TestsPerRay {
     double boxes = 0, primitives = 0;
 };
 
-TestsPerRay countTests(const DeviceScene& scene, const Bvh& tree, const RaySet& set, unsigned threads)
+/// In the binary tree, or in the wide one that is made from it.
+TestsPerRay countTests(const DeviceScene& scene, const Bvh& tree, bool asWide, const RaySet& set, unsigned threads)
 {
     DeviceScene changed = scene;
     changed.nodes = tree.nodes;
@@ -60,6 +61,11 @@ TestsPerRay countTests(const DeviceScene& scene, const Bvh& tree, const RaySet& 
     changed.frame.rootRef = tree.rootRef;
     changed.treeDepth = tree.statistics.depth;
     changed.wide = {};  // the wide tree was made of another one
+    WideTrees wide;
+    if (asWide) {
+        wide = widen(tree.nodes, {}, tree.rootRef, reachOf(scene.frame.camera));
+        changed.wide = {wide.nodes, {}, wide.rootRef, wide.gridAt, wide.gridScale, wide.worstPending};
+    }
     DeviceOptions options;
     options.threads = threads;
     const std::unique_ptr<Device> device = makeCpuDevice(options);
@@ -117,14 +123,17 @@ Json benchBuild(const BenchOptions& options)
             TableRow line = {i == 0 ? name : "", timings[i].name, shortNumber(timings[i].median()),
                              percent(timings[i].spread()), shortNumber(ratio)};
             if (trees[i].primitives.empty()) {
-                line.insert(line.end(), {"", "", ""});
+                line.insert(line.end(), {"", "", "", ""});
             } else {
-                const TestsPerRay tests = countTests(prepared.deviceScene(), trees[i], diffuse, threads);
+                const DeviceScene device = prepared.deviceScene();
+                const TestsPerRay tests = countTests(device, trees[i], false, diffuse, threads);
+                const TestsPerRay wide = countTests(device, trees[i], true, diffuse, threads);
                 row["boxTestsPerRay"] = tests.boxes;
+                row["wideBoxTestsPerRay"] = wide.boxes;
                 row["primitiveTestsPerRay"] = tests.primitives;
                 row["depth"] = trees[i].statistics.depth;
                 if (!builders[i].isEmbree) row["sahCost"] = trees[i].statistics.sahCost;
-                line.insert(line.end(), {shortNumber(tests.boxes), shortNumber(tests.primitives),
+                line.insert(line.end(), {shortNumber(tests.boxes), shortNumber(wide.boxes), shortNumber(tests.primitives),
                                          std::to_string(trees[i].statistics.depth)});
             }
             rows.push_back(row);
@@ -133,7 +142,7 @@ Json benchBuild(const BenchOptions& options)
     }
     answer("medians of {} rounds, {} threads; tests are those of diffuse rays\n", rounds, threads);
     printTable({"scene", "builder", "seconds", "spread", embree.empty() ? "ratio" : "/ Embree", "boxes a ray",
-                "tri. a ray", "depth"},
+                "wide", "tri. a ray", "depth"},
                table);
     return {{"threads", threads}, {"rounds", rounds}, {"rows", rows}};
 }
