@@ -100,7 +100,7 @@ void printTree(const PreparedScene& prepared, const StageSeconds& seconds)
     answer("tree       {} inner nodes, {} leaves, depth {}, at most {} primitives a leaf\n",
            tree.innerNodes, tree.leaves, tree.depth, tree.largestLeaf);
     answer("SAH cost   {:.3f} tests a ray, built by {}\n", tree.sahCost,
-           tree.build == BvhBuild::binned ? "bins" : "sweep");
+           tree.build == BvhBuild::binned ? "bins" : tree.build == BvhBuild::high ? "reinsertion" : "sweep");
     answer("seconds    {:.3f} loading, {:.3f} building, {:.3f} writing\n", seconds.load,
            seconds.build, seconds.write);
     answer("memory     {:.2f} MiB: nodes {:.2f}, primitives {:.2f}, normals {:.2f}, probe {:.2f}; "

@@ -4,6 +4,7 @@
 #include "app/option_kinds.h"
 #include "app/sampling_options.h"
 #include "app/shading_options.h"
+#include "app/tree_options.h"
 #include "device/variants.h"
 #include "film/film.h"
 #include "saved/saved_scene.h"
@@ -98,11 +99,7 @@ void addSceneOptions(CLI::App& command, CommonOptions& options)
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->group("Scene");
-    addChoice(
-        command, "--bvh-build", options.bvhBuild,
-        {{"auto", BvhBuild::automatic}, {"sweep", BvhBuild::sweep}, {"binned", BvhBuild::binned}},
-        "auto, sweep (best tree) or binned (fast)")
-        ->group("Scene");
+    addTreeOptions(command, options);
 }
 
 void addDeviceOptions(CLI::App& command, CommonOptions& options)
@@ -172,8 +169,8 @@ PreparedScene prepareSceneFor(const CommonOptions& options,
         return prepareScene(std::move(scene), options.bvhBuild, threadsFor(options));
     }
     if (options.bvhBuild != BvhBuild::automatic) {
-        throw usageError("{}: has its tree with it; --bvh-build needs the scene that it was saved "
-                         "from",
+        throw usageError("{}: has its tree with it; --bvh-build and --bvh-quality need the scene that "
+                         "it was saved from",
                          options.scenePath);
     }
     PreparedScene prepared = loadSaved(form, options.scenePath, options.scene);

@@ -1,5 +1,6 @@
 #include "app/stats.h"
 
+#include "bvh/build_names.h"
 #include "sahl_version.h"
 
 #include <algorithm>
@@ -11,11 +12,6 @@ namespace sahl {
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-const char* nameOf(BvhBuild build)
-{
-    return build == BvhBuild::binned ? "binned" : "sweep";
-}
 
 double perSecond(uint64_t count, double seconds)
 {

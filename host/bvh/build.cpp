@@ -1,5 +1,6 @@
 // buildBvh: checks the primitives, picks the builder, hands over to flatten.
 #include "bvh/draft.h"
+#include "bvh/reinsert.h"
 
 #include "util/error.h"
 #include "util/parallel.h"
@@ -62,7 +63,8 @@ void requireSound(std::span<const Primitive> primitives)
 Bvh buildTree(const TreeItems& items, uint levels, BvhBuild build, unsigned threads)
 {
     const size_t count = items.primitives.size() + items.instanceBoxes.size();
-    if (build == BvhBuild::automatic)
+    const bool high = build == BvhBuild::high;
+    if (high || build == BvhBuild::automatic)
         build = count < BINNED_FROM ? BvhBuild::sweep : BvhBuild::binned;
 
     Bvh bvh;
@@ -70,11 +72,12 @@ Bvh buildTree(const TreeItems& items, uint levels, BvhBuild build, unsigned thre
         requireSound(items.primitives);
         std::vector<Box> boxes = boxesOf(items.primitives, threads);
         boxes.insert(boxes.end(), items.instanceBoxes.begin(), items.instanceBoxes.end());
-        const Draft draft = build == BvhBuild::sweep ? buildSweep(boxes, levels, threads)
-                                                     : buildBinned(boxes, levels, threads);
+        Draft draft = build == BvhBuild::sweep ? buildSweep(boxes, levels, threads)
+                                               : buildBinned(boxes, levels, threads);
+        if (high) improveByReinsertion(draft, boxes, levels, threads);
         bvh = flatten(draft, items, boxes);
     }
-    bvh.statistics.build = build;
+    bvh.statistics.build = high ? BvhBuild::high : build;
     return bvh;
 }
 

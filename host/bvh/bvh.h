@@ -13,6 +13,7 @@ enum class BvhBuild {
     automatic,  ///< sweep below 200,000 primitives, binned above
     sweep,      ///< every split on all three axes
     binned,     ///< 32 bins on each axis
+    high,       ///< as automatic, then made better by reinsertion (bvh/reinsert.h)
 };
 
 struct BvhStatistics {

@@ -2,6 +2,7 @@
 
 #include "device/adaptive_schedule.h"
 #include "device/device.h"
+#include "device/walked_tree.h"
 #include "reference/render_tile.h"
 #include "util/error.h"
 #include "util/parallel.h"
@@ -28,7 +29,7 @@ struct CpuAdaptiveShared {
     DeviceScene scene;
     AdaptiveWindow window;
     AdaptiveRule rule;
-    uint32_t order;
+    reference::Walk walk;
     unsigned threads;
     DeviceStatistics& statistics;
     std::vector<PixelEstimate> estimates;  // of the window, for rules that look at neighbours
@@ -50,7 +51,7 @@ public:
         if (active_.empty() && activeAfter_.empty()) return {};
         auto start = std::chrono::steady_clock::now();
         reference::foldBlocks(before_, pixels_);
-        reference::renderAdaptivePass(shared_.scene, tile_, shared_.rule, passes_, shared_.order,
+        reference::renderAdaptivePass(shared_.scene, tile_, shared_.rule, passes_, shared_.walk,
                                       shared_.threads, active_, pixels_);
         before_ = std::move(active_);
         advance();
@@ -146,7 +147,8 @@ class CpuDevice final : public Device {
 public:
     explicit CpuDevice(const DeviceOptions& options)
         : threads_(options.threads != 0 ? options.threads : defaultThreadCount()),
-          order_(options.traversalOrder)
+          walk_{options.traversalOrder, 2},
+          wantedWidth_(options.nodeWidth)
     {
     }
 
@@ -158,8 +160,9 @@ public:
 
     void setScene(const DeviceScene& scene) override
     {
-        scene_ = scene;
-        statistics_.sceneBytes = scene.nodes.size_bytes() + scene.primitives.size_bytes() +
+        walk_.nodeWidth = nodeWidthFor(scene, wantedWidth_);
+        scene_ = walkedScene(scene, walk_.nodeWidth);
+        statistics_.sceneBytes = (walk_.nodeWidth == 4 ? scene.wide.nodes.size_bytes() : scene.nodes.size_bytes()) + scene.primitives.size_bytes() +
                                  scene.triangleCorners.size_bytes() + scene.materials.size_bytes() +
                                  scene.lights.size_bytes() + scene.probeTexels.size_bytes() +
                                  scene.instances.size_bytes() + scene.textures.size_bytes() +
@@ -169,7 +172,7 @@ public:
     void render(const TileRequest& tile, std::span<PixelBlock> blocks) override
     {
         auto start = std::chrono::steady_clock::now();
-        reference::renderTile(scene_, tile, order_, threads_, blocks);
+        reference::renderTile(scene_, tile, walk_, threads_, blocks);
         std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         statistics_.renderSeconds += seconds.count();
         statistics_.dispatches++;
@@ -178,13 +181,13 @@ public:
 
     void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override
     {
-        reference::renderFirstHits(scene_, tile, threads_, pixels);
+        reference::renderFirstHits(scene_, tile, walk_, threads_, pixels);
     }
 
     double traceRays(std::span<const TraceRay> rays, bool anyHit, std::span<TraceHit> hits) override
     {
         auto start = std::chrono::steady_clock::now();
-        reference::traceRays(scene_, rays, anyHit, order_, threads_, hits);
+        reference::traceRays(scene_, rays, anyHit, walk_, threads_, hits);
         std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         statistics_.dispatches++;
         for (const TraceHit& hit : hits) refuseFaults(hit.faults);
@@ -195,7 +198,7 @@ public:
                                                    const AdaptiveRule& rule) override
     {
         return std::make_unique<CpuAdaptivePicture>(
-            CpuAdaptiveShared{scene_, window, rule, order_, threads_, statistics_, {}});
+            CpuAdaptiveShared{scene_, window, rule, walk_, threads_, statistics_, {}});
     }
 
     uint32_t samplerKind() const override { return scene_.frame.samplerKind; }
@@ -208,7 +211,8 @@ public:
 
 private:
     unsigned threads_;
-    uint32_t order_;
+    reference::Walk walk_;
+    uint32_t wantedWidth_;
     DeviceScene scene_;
     DeviceStatistics statistics_;
 };

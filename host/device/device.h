@@ -15,6 +15,17 @@
 
 namespace sahl {
 
+/// The wide trees of a scene (bvh/widen.h): where there are any, rays may walk them in place of the binary
+/// ones. The primitives are the same.
+struct WideScene {
+    std::span<const WideNode> nodes;             ///< empty: there are none
+    std::span<const ObjectInstance> instances;   ///< in place of the scene's
+    uint rootRef = REF_NONE;                     ///< this and the grid in place of the frame's
+    vec3 gridAt = vec3(0.0f);
+    uint gridScale = 0;
+    uint32_t worstPending = 0;                   ///< references on the stack, whatever the ray
+};
+
 /// What a device reads: spans over the scene's arrays and its tree. They must stay valid until the
 /// next setScene() or the end of the device: the CPU reads them in place.
 struct DeviceScene {
@@ -30,6 +41,7 @@ struct DeviceScene {
     std::span<const ObjectInstance> instances;
     Frame frame = {};
     uint32_t treeDepth = 0;  ///< decides the size of the traversal stack
+    WideScene wide;
 };
 
 /// Part of a picture and of its samples. x, y, width and height in pixels of the full picture.
@@ -152,6 +164,7 @@ public:
 struct DeviceOptions {
     unsigned threads = 0;              ///< CPU: 0 means all cores
     uint32_t traversalOrder = 0;       ///< one of ORDER_* (changes counters)
+    uint32_t nodeWidth = 4;            ///< 4: the wide tree where the scene has one; 2 (changes counters)
     // Vulkan only:
     enum class Buffers { automatic, texel, storage } buffers = Buffers::automatic;
     /// Division and square root by the device itself, made exact, or as a test of the device decides.

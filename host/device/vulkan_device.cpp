@@ -8,6 +8,7 @@
 #include "device/vulkan_limits.h"
 #include "device/vulkan_scene.h"
 #include "device/vulkan_trace.h"
+#include "device/walked_tree.h"
 #include "shared/bindings.h"
 #include "vulkan/pipeline.h"
 
@@ -76,7 +77,7 @@ public:
 private:
     ComputePipeline makePipeline(const std::string& kernel, uint32_t bindingCount,
                                  uint32_t pushConstantBytes = sizeof(Dispatch)) const;
-    void preparePipeline(bool texel, uint32_t features, uint32_t stackSize);
+    void preparePipeline(bool texel, uint32_t features, uint32_t stackSize, uint32_t nodeWidth);
     void prepareTileBuffers(size_t pixels);
     void prepareFirstHits(size_t pixels);
     void requireStorageBuffers(uint32_t ofKernel, const char* purpose) const;
@@ -100,6 +101,7 @@ private:
     bool pipelineTexel_ = false;
     uint32_t pipelineFeatures_ = 0;
     uint32_t pipelineStack_ = 0;  // 0: no pipeline yet
+    uint32_t pipelineNodeWidth_ = 0;
     std::unique_ptr<VulkanScene> scene_;
     uint32_t samplerKind_ = SAMPLER_INDEPENDENT;
     Buffer pixels_, suspended_;   // as large as the largest tile so far
@@ -131,12 +133,13 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     scene_.reset();  // first, so that there never need be room for two scenes
     bound_ = false;
     firstHitsBound_ = false;
-    uint32_t stackSize = chooseStackSize(scene.treeDepth);
+    const uint32_t nodeWidth = nodeWidthFor(scene, options_.nodeWidth);
+    uint32_t stackSize = chooseStackSize(stackEntriesFor(scene, nodeWidth));
     auto start = std::chrono::steady_clock::now();
     auto uploaded = std::make_unique<VulkanScene>(
-        uploadScene(*context_, scene, options_.buffers, variant_.texelBuffers));
+        uploadScene(*context_, scene, {options_.buffers, variant_.texelBuffers}, nodeWidth));
     statistics_.uploadSeconds += secondsSince(start);
-    preparePipeline(uploaded->texel, featuresOf(scene), stackSize);
+    preparePipeline(uploaded->texel, featuresOf(scene), stackSize, nodeWidth);
     scene_ = std::move(uploaded);
     samplerKind_ = scene.frame.samplerKind;
     statistics_.sceneBytes = scene_->bytes;
@@ -160,6 +163,7 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     constants[SPEC_GROUP_WIDTH] = group_[0];
     constants[SPEC_GROUP_HEIGHT] = group_[1];
     constants[SPEC_STACK_SIZE] = pipelineStack_;
+    constants[SPEC_NODE_WIDTH] = pipelineNodeWidth_;
     constants[SPEC_ORDER] = options_.traversalOrder;
     constants[SPEC_EXACT_MATH] = statistics_.exactMath ? 1 : 0;
     constants[SPEC_FEATURES] = pipelineFeatures_;
@@ -167,10 +171,13 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     return createComputePipeline(*context_, request);
 }
 
-void VulkanDevice::preparePipeline(bool texel, uint32_t features, uint32_t stackSize)
+void VulkanDevice::preparePipeline(bool texel, uint32_t features, uint32_t stackSize, uint32_t nodeWidth)
 {
-    if (pipelineStack_ == stackSize && pipelineTexel_ == texel && pipelineFeatures_ == features) return;
+    if (pipelineStack_ == stackSize && pipelineTexel_ == texel && pipelineFeatures_ == features &&
+        pipelineNodeWidth_ == nodeWidth)
+        return;
     pipelineStack_ = stackSize;
+    pipelineNodeWidth_ = nodeWidth;
     pipelineTexel_ = texel;
     pipelineFeatures_ = features;
     firstHitsPipeline_ = {};

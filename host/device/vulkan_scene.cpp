@@ -1,6 +1,7 @@
 #include "device/vulkan_scene.h"
 
 #include "device/vulkan_limits.h"
+#include "device/walked_tree.h"
 #include "shared/bindings.h"
 
 #include <limits>
@@ -34,10 +35,10 @@ std::vector<std::byte> joinTables(const DeviceScene& scene, Frame& frame)
     return tables;
 }
 
-SceneArrays sceneArrays(const DeviceScene& scene, std::span<const std::byte> tables)
+SceneArrays sceneArrays(const DeviceScene& scene, std::span<const std::byte> tables, uint32_t nodeWidth)
 {
     SceneArrays arrays;
-    arrays[BINDING_NODES] = std::as_bytes(scene.nodes);
+    arrays[BINDING_NODES] = nodeWidth == 4 ? std::as_bytes(scene.wide.nodes) : std::as_bytes(scene.nodes);
     arrays[BINDING_PRIMITIVES] = std::as_bytes(scene.primitives);
     arrays[BINDING_CORNERS] = std::as_bytes(scene.triangleCorners);
     arrays[BINDING_MATERIALS] = std::as_bytes(scene.materials);
@@ -79,12 +80,13 @@ Buffer uploadArray(Context& context, const std::string& name, VkBufferUsageFlags
 
 }  // namespace
 
-VulkanScene uploadScene(Context& context, const DeviceScene& scene, DeviceOptions::Buffers buffers,
-                        bool preferTexels)
+VulkanScene uploadScene(Context& context, const DeviceScene& given, const BufferChoice& buffers,
+                        uint32_t nodeWidth)
 {
+    const DeviceScene scene = walkedScene(given, nodeWidth);
     Frame frame = scene.frame;
     const std::vector<std::byte> tables = joinTables(scene, frame);
-    SceneArrays arrays = sceneArrays(scene, tables);
+    SceneArrays arrays = sceneArrays(scene, tables, nodeWidth);
     SceneBytes bytes = {};
     VulkanScene result;
     result.bytes = sizeof(Frame);
@@ -92,7 +94,7 @@ VulkanScene uploadScene(Context& context, const DeviceScene& scene, DeviceOption
         bytes[i] = arrays[i].size();
         result.bytes += bytes[i];
     }
-    result.texel = chooseTexelBuffers(context.physical, bytes, buffers, preferTexels);
+    result.texel = chooseTexelBuffers(context.physical, bytes, buffers);
     result.stepsPerSample = mostStepsPerSample(scene);
     requireMemory(context.physical, result.bytes);
 

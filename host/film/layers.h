@@ -24,7 +24,8 @@ std::vector<ImageChannel> firstHitChannels(std::span<const FirstHits> hits, uint
 ///   variance.Y        of the mean luminance, estimated from the spread of the replicates; 0 with fewer than 2
 ///   error.Y           one standard error of the luminance by that, relative: see pixelErrors(); 0 with
 ///                     fewer than 2 replicates
-///   nodeVisits.Y      inner nodes that the rays of all samples visited; a visit is two box tests
+///   nodeVisits.Y      inner nodes that the rays of all samples visited; a visit is two box tests, one of a
+///                     wide node counts as two
 ///   primitiveTests.Y  triangles and spheres that they were tested against
 std::vector<ImageChannel> statisticsChannels(const Film& film);
 

@@ -2,6 +2,7 @@
 // The text is included inside a struct whose members stand for the device's buffers.
 #pragma once
 
+#include "reference/four.h"
 #include "shared/adaptive_types.h"
 #include "shared/bindings.h"
 #include "shared/features.h"
@@ -16,6 +17,7 @@
 #define CONST static constexpr
 #define OUT(T) T&
 #define INOUT(T) T&
+#define READ(T) const T&
 
 namespace sahl::reference {
 
@@ -23,15 +25,17 @@ using namespace glm;  // GLSL's names: floor, sqrt, floatBitsToUint, ...
 
 /// One invocation. Order is one of ORDER_*. Scenes without instances are rendered without Instances,
 /// which takes a few per cent less time and changes nothing else; likewise those without textures.
-template <uint Order = ORDER_NEAR_FIRST, bool Instances = true, bool Textures = false>
+template <uint Order = ORDER_NEAR_FIRST, bool Instances = true, bool Textures = false, uint NodeWidth = 2>
 struct Kernel {
     static constexpr uint STACK_SIZE = MAX_STACK_SIZE;
+    static constexpr uint NODE_WIDTH = NodeWidth;
     static constexpr uint TRAVERSAL_ORDER = Order;
     static constexpr uint FEATURES = FEATURES_ALL & ~(Instances ? 0u : FEATURE_INSTANCES) &
                                      ~(Textures ? 0u : FEATURE_TEXTURES | FEATURE_CUTOUTS);
     static constexpr bool EXACT_MATH = false;  // C++ divides and takes roots exactly anyway
 
     std::span<const BvhNode> nodes;
+    std::span<const WideNode> wideNodes;
     std::span<const Primitive> primitives;
     std::span<const TriangleCorners> triangleCorners;
     std::span<const Material> materials;
@@ -44,6 +48,7 @@ struct Kernel {
     Frame frame = {};
 
     const BvhNode& loadNode(uint index) const { return nodes[index]; }
+    const WideNode& loadWideNode(uint index) const { return wideNodes[index]; }
     const Primitive& loadPrimitive(uint index) const { return primitives[index]; }
     const TriangleCorners& loadCorners(uint index) const { return triangleCorners[index]; }
     const Material& loadMaterial(uint index) const { return materials[index]; }

@@ -9,11 +9,12 @@ namespace sahl::reference {
 
 namespace {
 
-template <uint Order, bool Instances, bool Textures>
-Kernel<Order, Instances, Textures> kernelFor(const DeviceScene& scene)
+template <class Kernel>
+Kernel kernelFor(const DeviceScene& scene)
 {
-    Kernel<Order, Instances, Textures> kernel = {};
+    Kernel kernel = {};
     kernel.nodes = scene.nodes;
+    kernel.wideNodes = scene.wide.nodes;
     kernel.primitives = scene.primitives;
     kernel.triangleCorners = scene.triangleCorners;
     kernel.materials = scene.materials;
@@ -27,83 +28,70 @@ Kernel<Order, Instances, Textures> kernelFor(const DeviceScene& scene)
     return kernel;
 }
 
-template <uint Order, bool Instances = true, bool Textures = true>
-void renderTileInOrder(const DeviceScene& scene, const TileRequest& tile, unsigned threads,
-                       std::span<PixelBlock> blocks)
+/// A Kernel as a type to be named.
+template <class K>
+struct KernelType {
+    using Kernel = K;
+};
+
+template <uint Width, class Action>
+void withKernelOfWidth(const DeviceScene& scene, uint order, Action action)
 {
-    parallelFor(tile.height, threads, [&](size_t row) {
-        auto kernel = kernelFor<Order, Instances, Textures>(scene);
-        for (uint x = 0; x < tile.width; x++) {
-            PixelBlock block = {};
-            for (uint i = 0; i < tile.sampleCount; i++) {
-                kernel.renderSample(tile.x + x, tile.y + static_cast<uint>(row),
-                                    tile.firstSample + i, block);
-            }
-            blocks[row * tile.width + x] = block;
-        }
-    });
+    switch (order) {
+    case ORDER_LEFT_FIRST:
+        return action(KernelType<Kernel<ORDER_LEFT_FIRST, true, true, Width>>{});
+    case ORDER_RIGHT_FIRST:
+        return action(KernelType<Kernel<ORDER_RIGHT_FIRST, true, true, Width>>{});
+    default:
+        break;
+    }
+    if (!scene.textures.empty())
+        return action(KernelType<Kernel<ORDER_NEAR_FIRST, true, true, Width>>{});
+    if (scene.instances.empty())
+        return action(KernelType<Kernel<ORDER_NEAR_FIRST, false, false, Width>>{});
+    action(KernelType<Kernel<ORDER_NEAR_FIRST, true, false, Width>>{});
 }
 
-template <uint Order, bool Instances = true, bool Textures = true>
-void renderPassInOrder(const DeviceScene& scene, const TileRequest& tile, const AdaptiveRule& rule,
-                       uint pass, unsigned threads, std::span<const uint32_t> queue,
-                       std::span<AdaptivePixel> pixels)
+/// Calls `action` with the KernelType that leaves out what the scene has not.
+template <class Action>
+void withKernel(const DeviceScene& scene, const Walk& walk, Action action)
 {
-    constexpr size_t CHUNK = 64;  // pixels, since making a kernel is not free
-    parallelFor((queue.size() + CHUNK - 1) / CHUNK, threads, [&](size_t chunk) {
-        auto kernel = kernelFor<Order, Instances, Textures>(scene);
-        size_t first = chunk * CHUNK;
-        for (uint32_t i : queue.subspan(first, std::min(CHUNK, queue.size() - first))) {
-            kernel.renderBlock(tile.x + i % tile.width, tile.y + i / tile.width, pass, rule, pixels[i]);
-        }
-    });
-}
-
-template <uint Order, bool Instances = true, bool Textures = true>
-void traceRaysInOrder(const DeviceScene& scene, std::span<const TraceRay> rays, bool anyHit, unsigned threads,
-                      std::span<TraceHit> hits)
-{
-    constexpr size_t CHUNK = 4096;
-    parallelFor((rays.size() + CHUNK - 1) / CHUNK, threads, [&](size_t chunk) {
-        auto kernel = kernelFor<Order, Instances, Textures>(scene);
-        const size_t end = std::min(rays.size(), (chunk + 1) * CHUNK);
-        for (size_t i = chunk * CHUNK; i < end; i++) hits[i] = kernel.traceRay(rays[i], anyHit);
-    });
+    if (walk.nodeWidth == 4)
+        withKernelOfWidth<4>(scene, walk.order, action);
+    else
+        withKernelOfWidth<2>(scene, walk.order, action);
 }
 
 }  // namespace
 
-void traceRays(const DeviceScene& scene, std::span<const TraceRay> rays, bool anyHit, uint order,
-               unsigned threads, std::span<TraceHit> hits)
+void traceRays(const DeviceScene& scene, std::span<const TraceRay> rays, bool anyHit,
+               const Walk& walk, unsigned threads, std::span<TraceHit> hits)
 {
-    switch (order) {
-    case ORDER_LEFT_FIRST: return traceRaysInOrder<ORDER_LEFT_FIRST>(scene, rays, anyHit, threads, hits);
-    case ORDER_RIGHT_FIRST: return traceRaysInOrder<ORDER_RIGHT_FIRST>(scene, rays, anyHit, threads, hits);
-    default: break;
-    }
-    if (!scene.textures.empty())
-        return traceRaysInOrder<ORDER_NEAR_FIRST>(scene, rays, anyHit, threads, hits);
-    if (scene.instances.empty())
-        return traceRaysInOrder<ORDER_NEAR_FIRST, false, false>(scene, rays, anyHit, threads, hits);
-    traceRaysInOrder<ORDER_NEAR_FIRST, true, false>(scene, rays, anyHit, threads, hits);
+    constexpr size_t CHUNK = 4096;
+    withKernel(scene, walk, [&]<class Type>(Type) {
+        parallelFor((rays.size() + CHUNK - 1) / CHUNK, threads, [&](size_t chunk) {
+            auto kernel = kernelFor<typename Type::Kernel>(scene);
+            const size_t end = std::min(rays.size(), (chunk + 1) * CHUNK);
+            for (size_t i = chunk * CHUNK; i < end; i++) hits[i] = kernel.traceRay(rays[i], anyHit);
+        });
+    });
 }
 
 void renderAdaptivePass(const DeviceScene& scene, const TileRequest& tile, const AdaptiveRule& rule,
-                        uint pass, uint order, unsigned threads, std::span<const uint32_t> queue,
-                        std::span<AdaptivePixel> pixels)
+                        uint pass, const Walk& walk, unsigned threads,
+                        std::span<const uint32_t> queue, std::span<AdaptivePixel> pixels)
 {
-    switch (order) {
-    case ORDER_LEFT_FIRST:
-        return renderPassInOrder<ORDER_LEFT_FIRST>(scene, tile, rule, pass, threads, queue, pixels);
-    case ORDER_RIGHT_FIRST:
-        return renderPassInOrder<ORDER_RIGHT_FIRST>(scene, tile, rule, pass, threads, queue, pixels);
-    default: break;
-    }
-    if (!scene.textures.empty())
-        return renderPassInOrder<ORDER_NEAR_FIRST>(scene, tile, rule, pass, threads, queue, pixels);
-    if (scene.instances.empty())
-        return renderPassInOrder<ORDER_NEAR_FIRST, false, false>(scene, tile, rule, pass, threads, queue, pixels);
-    renderPassInOrder<ORDER_NEAR_FIRST, true, false>(scene, tile, rule, pass, threads, queue, pixels);
+    constexpr size_t CHUNK = 64;  // pixels, since making a kernel is not free
+    withKernel(scene, walk, [&]<class Type>(Type) {
+        parallelFor((queue.size() + CHUNK - 1) / CHUNK, threads, [&](size_t chunk) {
+            auto kernel = kernelFor<typename Type::Kernel>(scene);
+            size_t first = chunk * CHUNK;
+            for (uint32_t i : queue.subspan(first, std::min(CHUNK, queue.size() - first))) {
+                kernel.renderBlock(tile.x + i % tile.width, tile.y + i / tile.width, pass, rule,
+                                   pixels[i]);
+            }
+        });
+    });
 }
 
 void foldBlocks(std::span<const uint32_t> queue, std::span<AdaptivePixel> pixels)
@@ -115,8 +103,8 @@ void foldBlocks(std::span<const uint32_t> queue, std::span<AdaptivePixel> pixels
     }
 }
 
-void estimatePixels(const AdaptiveRule& rule, const EstimatesView& view, std::span<const uint32_t> queue,
-                    std::span<const AdaptivePixel> pixels)
+void estimatePixels(const AdaptiveRule& rule, const EstimatesView& view,
+                    std::span<const uint32_t> queue, std::span<const AdaptivePixel> pixels)
 {
     Kernel<> kernel = {};
     for (uint32_t i : queue) {
@@ -151,7 +139,8 @@ void decidePixels(const AdaptiveRule& rule, const AdaptiveFloors& floors, uint p
     }
 }
 
-std::vector<uint32_t> advanceHalves(const AdaptiveRule& rule, uint pass, std::span<const uint32_t> queue,
+std::vector<uint32_t> advanceHalves(const AdaptiveRule& rule, uint pass,
+                                    std::span<const uint32_t> queue,
                                     std::span<AdaptivePixel> pixels)
 {
     Kernel<> kernel = {};
@@ -164,7 +153,8 @@ std::vector<uint32_t> advanceHalves(const AdaptiveRule& rule, uint pass, std::sp
     return goingOn;
 }
 
-std::vector<uint32_t> takersOf(const AdaptiveRule& rule, uint pass, std::span<const AdaptivePixel> pixels)
+std::vector<uint32_t> takersOf(const AdaptiveRule& rule, uint pass,
+                               std::span<const AdaptivePixel> pixels)
 {
     Kernel<> kernel = {};
     std::vector<uint32_t> takers;
@@ -177,34 +167,40 @@ std::vector<uint32_t> takersOf(const AdaptiveRule& rule, uint pass, std::span<co
     return takers;
 }
 
-void renderFirstHits(const DeviceScene& scene, const TileRequest& tile, unsigned threads,
-                     std::span<FirstHits> pixels)
+void renderFirstHits(const DeviceScene& scene, const TileRequest& tile, const Walk& walk,
+                     unsigned threads, std::span<FirstHits> pixels)
 {
-    parallelFor(tile.height, threads, [&](size_t row) {
-        auto kernel = kernelFor<ORDER_NEAR_FIRST, true, true>(scene);
-        for (uint x = 0; x < tile.width; x++) {
-            FirstHits sums = kernel.noFirstHits();
-            for (uint i = 0; i < tile.sampleCount; i++) {
-                kernel.renderFirstHit(tile.x + x, tile.y + static_cast<uint>(row),
-                                      tile.firstSample + i, i == 0, sums);
+    withKernel(scene, walk, [&]<class Type>(Type) {
+        parallelFor(tile.height, threads, [&](size_t row) {
+            auto kernel = kernelFor<typename Type::Kernel>(scene);
+            for (uint x = 0; x < tile.width; x++) {
+                FirstHits sums = kernel.noFirstHits();
+                for (uint i = 0; i < tile.sampleCount; i++) {
+                    kernel.renderFirstHit(tile.x + x, tile.y + static_cast<uint>(row),
+                                          tile.firstSample + i, i == 0, sums);
+                }
+                pixels[row * tile.width + x] = sums;
             }
-            pixels[row * tile.width + x] = sums;
-        }
+        });
     });
 }
 
-void renderTile(const DeviceScene& scene, const TileRequest& tile, uint order, unsigned threads,
-                std::span<PixelBlock> blocks)
+void renderTile(const DeviceScene& scene, const TileRequest& tile, const Walk& walk,
+                unsigned threads, std::span<PixelBlock> blocks)
 {
-    switch (order) {
-    case ORDER_LEFT_FIRST: return renderTileInOrder<ORDER_LEFT_FIRST>(scene, tile, threads, blocks);
-    case ORDER_RIGHT_FIRST: return renderTileInOrder<ORDER_RIGHT_FIRST>(scene, tile, threads, blocks);
-    default: break;
-    }
-    if (!scene.textures.empty()) return renderTileInOrder<ORDER_NEAR_FIRST>(scene, tile, threads, blocks);
-    if (scene.instances.empty())
-        return renderTileInOrder<ORDER_NEAR_FIRST, false, false>(scene, tile, threads, blocks);
-    renderTileInOrder<ORDER_NEAR_FIRST, true, false>(scene, tile, threads, blocks);
+    withKernel(scene, walk, [&]<class Type>(Type) {
+        parallelFor(tile.height, threads, [&](size_t row) {
+            auto kernel = kernelFor<typename Type::Kernel>(scene);
+            for (uint x = 0; x < tile.width; x++) {
+                PixelBlock block = {};
+                for (uint i = 0; i < tile.sampleCount; i++) {
+                    kernel.renderSample(tile.x + x, tile.y + static_cast<uint>(row),
+                                        tile.firstSample + i, block);
+                }
+                blocks[row * tile.width + x] = block;
+            }
+        });
+    });
 }
 
 std::string compilerName()

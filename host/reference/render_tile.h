@@ -2,25 +2,32 @@
 #pragma once
 
 #include "device/device.h"
+#include "shared/bindings.h"
 
 namespace sahl::reference {
 
-/// Renders the samples of a tile; see Device::render. `order` is one of ORDER_*.
-void renderTile(const DeviceScene& scene, const TileRequest& tile, uint order, unsigned threads,
+/// How rays walk through a tree. None of it changes a hit.
+struct Walk {
+    uint order = ORDER_NEAR_FIRST;  ///< one of ORDER_*
+    uint nodeWidth = 2;  ///< of the trees that scenes are given with: see walkedScene()
+};
+
+/// Renders the samples of a tile; see Device::render. 
+void renderTile(const DeviceScene& scene, const TileRequest& tile, const Walk& walk, unsigned threads,
                 std::span<PixelBlock> blocks);
 
 /// See Device::renderFirstHits.
-void renderFirstHits(const DeviceScene& scene, const TileRequest& tile, unsigned threads,
+void renderFirstHits(const DeviceScene& scene, const TileRequest& tile, const Walk& walk, unsigned threads,
                      std::span<FirstHits> pixels);
 
 /// See Device::traceRays.
-void traceRays(const DeviceScene& scene, std::span<const TraceRay> rays, bool anyHit, uint order,
+void traceRays(const DeviceScene& scene, std::span<const TraceRay> rays, bool anyHit, const Walk& walk,
                unsigned threads, std::span<TraceHit> hits);
 
 /// Pass `pass` of adaptive sampling over the pixels of `queue`, each counted within the tile: see
 /// AdaptiveTile::runPass. `pixels` are those of the whole tile; blocks of the pass before are in the film.
 void renderAdaptivePass(const DeviceScene& scene, const TileRequest& tile, const AdaptiveRule& rule,
-                        uint pass, uint order, unsigned threads, std::span<const uint32_t> queue,
+                        uint pass, const Walk& walk, unsigned threads, std::span<const uint32_t> queue,
                         std::span<AdaptivePixel> pixels);
 
 /// Puts the blocks of these pixels into their film.

@@ -36,6 +36,8 @@ DeviceScene PreparedScene::deviceScene() const
     view.frame.lightPerPower = lightTable.lightPerPower;
     view.frame.probeChance = lightTable.probeChance;
     view.treeDepth = bvh.statistics.depth;
+    view.wide = {wide.nodes,  wide.instances, wide.rootRef,
+                 wide.gridAt, wide.gridScale, wide.worstPending};
     view.frame.camera = scene.camera;
     view.frame.probe = scene.probe;
     view.frame.background = scene.background.value_or(scene.probe);
@@ -62,6 +64,12 @@ double reachOf(const Camera& camera)
     const bool parallel = camera.type == CAMERA_ORTHOGRAPHIC;
     const glm::dvec3 p = glm::abs(glm::dvec3(camera.position)) + lens + (parallel ? across : glm::dvec3(0.0));
     return std::max({p.x, p.y, p.z});
+}
+
+void prepareWideTrees(PreparedScene& prepared)
+{
+    const DeviceScene scene = prepared.deviceScene();
+    prepared.wide = widen(scene.nodes, scene.instances, scene.frame.rootRef, reachOf(scene.frame.camera));
 }
 
 void prepareLights(PreparedScene& prepared)
@@ -92,6 +100,7 @@ PreparedScene prepareScene(Scene scene, BvhBuild build, unsigned threads)
     prepared.scene.instances = {};
     for (const ObjectInstance& instance : prepared.bvh.instances)
         prepared.scene.objectStarts.push_back(instance.firstNumber);
+    prepareWideTrees(prepared);
     prepareLights(prepared);
     return prepared;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bvh/bvh.h"
+#include "bvh/widen.h"
 #include "device/device.h"
 #include "render/light_table.h"
 #include "scene/scene.h"
@@ -23,6 +24,7 @@ struct PreparedScene {
     std::shared_ptr<const MappedFile> file;
 
     LightTable lightTable;  ///< see prepareLights()
+    WideTrees wide;         ///< see prepareWideTrees()
 
     /// The lights of the scene file: point, spot, directional.
     std::span<const Light> sceneLights() const { return borrowed ? borrowed->lights : scene.lights; }
@@ -38,6 +40,9 @@ double reachOf(const Camera& camera);
 /// Makes the light table, and the weights of the probe's texels, by the scene's settings. Called by those
 /// who make prepared scenes; to be called again when lights, probe or settings.lightSampling change.
 void prepareLights(PreparedScene& prepared);
+
+/// Makes the trees that rays walk. Called by those who make prepared scenes.
+void prepareWideTrees(PreparedScene& prepared);
 
 /// Builds the tree and prepares the lights.
 PreparedScene prepareScene(Scene scene, BvhBuild build, unsigned threads);

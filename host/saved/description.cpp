@@ -1,5 +1,6 @@
 #include "saved/description.h"
 
+#include "bvh/build_names.h"
 #include "scene/adaptive.h"
 #include "scene/json_fields.h"
 #include "scene/phong.h"
@@ -178,8 +179,9 @@ Probe readProbe(const JsonDocument& document, const JsonNode& node, const std::s
 
 void readTree(const JsonObject& object, Bvh& bvh)
 {
-    const bool binned = object.choice("build", {"sweep", "binned"}) == "binned";
-    bvh.statistics.build = binned ? BvhBuild::binned : BvhBuild::sweep;
+    const std::string build = object.choice("build", {"sweep", "binned", "high"});
+    for (BvhBuild known : {BvhBuild::sweep, BvhBuild::binned, BvhBuild::high})
+        if (build == nameOf(known)) bvh.statistics.build = known;
     bvh.rootRef = object.uint("rootRef", REF_NONE, 0, ANY_UINT);
     bvh.statistics.sahCost = object.number("sahCost", 0, {0, std::numeric_limits<double>::max()});
 }
@@ -215,7 +217,7 @@ Json describe(const PreparedScene& prepared)
                  {"probe", describe(scene.probe)}};
     if (scene.background) json["background"] = describe(*scene.background);
     const BvhStatistics& tree = prepared.bvh.statistics;
-    json["tree"] = {{"build", tree.build == BvhBuild::binned ? "binned" : "sweep"},
+    json["tree"] = {{"build", nameOf(tree.build)},
                     {"rootRef", prepared.bvh.rootRef},
                     {"sahCost", tree.sahCost}};
     json["droppedTriangles"] = scene.droppedTriangles;

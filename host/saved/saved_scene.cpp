@@ -171,6 +171,7 @@ PreparedScene loadSavedScene(const fs::path& path, const SceneOptions& options)
     const DeviceScene scene = prepared.deviceScene();
     checkFrame(file, scene.frame, scene.probeTexels.size());
     replaceProbe(options, prepared);
+    prepareWideTrees(prepared);
     prepareLights(prepared);
     return prepared;
 }

@@ -68,6 +68,7 @@ PreparedScene loadTreeJson(const fs::path& path, const SceneOptions& options)
     checkArrays(file, scene, prepared.bvh.rootRef, prepared.scene.objectStarts);
     checkFrame(file, scene.frame, scene.probeTexels.size());
     replaceProbe(options, prepared);
+    prepareWideTrees(prepared);
     prepareLights(prepared);
     return prepared;
 }

@@ -4,6 +4,7 @@
 #define CONST const
 #define OUT(T) out T
 #define INOUT(T) inout T
+#define READ(T) T
 
 #include "shared/bindings.h"
 #include "shared/features.h"
@@ -11,9 +12,12 @@
 #include "shared/scene_types.h"
 
 layout(constant_id = SPEC_STACK_SIZE) const uint STACK_SIZE = 64u;
+layout(constant_id = SPEC_NODE_WIDTH) const uint NODE_WIDTH = 2u;
 layout(constant_id = SPEC_ORDER) const uint TRAVERSAL_ORDER = ORDER_NEAR_FIRST;
 layout(constant_id = SPEC_EXACT_MATH) const bool EXACT_MATH = false;
 layout(constant_id = SPEC_FEATURES) const uint FEATURES = FEATURES_ALL;
+
+#include "kernels/four.glsl"
 
 layout(std140, set = 0, binding = BINDING_FRAME) uniform FrameBlock
 {
@@ -37,6 +41,12 @@ SCENE_BUFFER(BINDING_MATERIALS, materialWords);
 SCENE_BUFFER(BINDING_TABLES, tableWords);
 SCENE_BUFFER(BINDING_PROBE, probeWords);
 layout(set = 0, binding = BINDING_INSTANCES) uniform utextureBuffer instanceWords;
+
+WideNode loadWideNode(uint index)
+{
+    return WideNode(FETCH(nodeWords, index * 4u), FETCH(nodeWords, index * 4u + 1u),
+                    FETCH(nodeWords, index * 4u + 2u), FETCH(nodeWords, index * 4u + 3u));
+}
 
 BvhNode loadNode(uint index)
 {
@@ -131,8 +141,8 @@ ObjectInstance loadInstance(uint index)
     uvec4 h = texelFetch(instanceWords, at + 7);
     uvec4 i = texelFetch(instanceWords, at + 8);
     return ObjectInstance(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w,
-                    uintBitsToFloat(c.xyz), c.w, uintBitsToFloat(d.xyz), d.w,
-                    uintBitsToFloat(e.xyz), e.w, uintBitsToFloat(f.xyz), f.w,
+                    uintBitsToFloat(c.xyz), c.w, uintBitsToFloat(d.xyz), uintBitsToFloat(d.w),
+                    uintBitsToFloat(e.xyz), uintBitsToFloat(e.w), uintBitsToFloat(f.xyz), uintBitsToFloat(f.w),
                     uintBitsToFloat(g.xyz), g.w, uintBitsToFloat(h.xyz), h.w,
                     uintBitsToFloat(i.xyz), i.w);
 }

@@ -1,5 +1,5 @@
 // The path tracer, in the order in which a path meets its parts. The includer provides the buffers
-// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, TRAVERSAL_ORDER, EXACT_MATH, FEATURES and the macros
+// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, NODE_WIDTH, TRAVERSAL_ORDER, EXACT_MATH, FEATURES and the macros
 // OUT and INOUT.
 
 // Invocation-wide state.
@@ -31,6 +31,9 @@ CONST float RAY_INFINITY = 3.0e38f;
 #include "pathtrace/sphere.glsl"
 #include "pathtrace/texture.glsl"
 #include "pathtrace/instance.glsl"
+#include "pathtrace/boxes.glsl"
+#include "pathtrace/stack.glsl"
+#include "pathtrace/wide.glsl"
 #include "pathtrace/traverse.glsl"
 #include "pathtrace/interaction.glsl"
 #include "pathtrace/normal_map.glsl"

@@ -14,47 +14,6 @@
 // distances along the same ray. What decides ties is unique in the scene: the number of the instance's
 // first primitive plus that of the primitive within the object.
 
-// A ray that meets a primitive must meet its box. The test of a triangle may take the ray to be beside
-// where it is by 7 roundings (2^-24) of the farthest corner's coordinates relative to the origin, that of
-// a sphere by fewer, the test of a box its planes by 3. So boxes and rays' origins are widened by 12
-// roundings of their largest coordinate; 2 are left for the widening itself.
-CONST float WIDENING = 7.15255737e-07f;
-CONST float LARGEST_FLOAT = 3.40282347e+38f;
-
-// What box tests need of a ray.
-struct BoxRay
-{
-    vec3 inverse;  // 1 / direction, clamped so that no axis is infinite
-    vec3 orgLo;    // origin widened for the lower and the upper planes of a box, so that a ray inside a
-    vec3 orgHi;    // box's plane meets the box
-};
-
-float clampedInverse(float d)
-{
-    return absolute(d) < 1e-18f ? (d < 0.0f ? -1e18f : 1e18f) : quotient(1.0f, d);
-}
-
-BoxRay makeBoxRay(vec3 org, vec3 dir)
-{
-    BoxRay ray;
-    ray.inverse = vec3(clampedInverse(dir.x), clampedInverse(dir.y), clampedInverse(dir.z));
-    vec3 pad = vec3(maxComponent(absolute3(org)) * WIDENING + 1e-20f);
-    ray.orgLo = org + pad;
-    ray.orgHi = org - pad;
-    return ray;
-}
-
-/// Tests a box against the part of the ray up to tMax.
-///   entry  distance at which the ray enters, 0 when it starts inside [m]
-bool intersectBox(BoxRay ray, vec3 lo, vec3 hi, float tMax, OUT(float) entry)
-{
-    vec3 a = (lo - ray.orgLo) * ray.inverse;
-    vec3 b = (hi - ray.orgHi) * ray.inverse;
-    entry = max2(max2(max2(min2(a.x, b.x), min2(a.y, b.y)), min2(a.z, b.z)), 0.0f);
-    float leave = min2(min2(min2(max2(a.x, b.x), max2(a.y, b.y)), max2(a.z, b.z)), tMax);
-    return entry <= leave;
-}
-
 Traversal beginTraversal(float tMax)
 {
     Traversal walk;
@@ -107,6 +66,7 @@ struct WalkRay
     uint firstNumber;   // of the instance's primitives, 0 in the world
     uint material;      // of all the instance's primitives, or NO_MATERIAL
     BoxRay boxes;
+    BoxRay onGrid;      // NODE_WIDTH 4: of the tree
     ShearedRay sheared;
 };
 
@@ -119,6 +79,7 @@ WalkRay makeWalkRay(vec3 org, vec3 dir, float entry, uint firstNumber)
     ray.firstNumber = firstNumber;
     ray.material = NO_MATERIAL;
     ray.boxes = makeBoxRay(org, dir);
+    if (NODE_WIDTH == 4u) ray.onGrid = makeGridRay(ray.boxes, frame.gridAt, frame.gridScale);
     ray.sheared = shearRay(dir);
     return ray;
 }
@@ -130,6 +91,10 @@ WalkRay walkRayInside(ObjectInstance instance, vec3 org, vec3 dir, float entry)
     WalkRay ray = makeWalkRay(pointToObject(instance, org), directionToObject(instance, dir), entry,
                               instance.firstNumber);
     ray.material = instance.material;
+    if (NODE_WIDTH == 4u) {
+        vec3 gridAt = vec3(instance.gridX, instance.gridY, instance.gridZ);
+        ray.onGrid = makeGridRay(ray.boxes, gridAt, instance.gridScale);
+    }
     return ray;
 }
 
@@ -181,23 +146,6 @@ void visitPrimitive(WalkRay ray, uint slot, INOUT(Traversal) walk)
         walk.b1 = b1;
         walk.b2 = b2;
     }
-}
-
-void pushRef(uint ref, INOUT(Traversal) walk)
-{
-    if (walk.stackSize < STACK_SIZE) {
-        stack[walk.stackSize] = ref;
-        walk.stackSize++;
-    } else {
-        faults |= FAULT_STACK_OVERFLOW;
-    }
-}
-
-uint popRef(INOUT(Traversal) walk)
-{
-    if (walk.stackSize == 0u) return REF_NONE;
-    walk.stackSize--;
-    return stack[walk.stackSize];
 }
 
 /// Visits an inner node: returns the child to visit next and pushes the other one, if it is met too.
@@ -270,7 +218,11 @@ bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) walk)
     while (walk.ref != REF_NONE && stepsLeft != 0u) {
         while ((walk.ref & REF_NOT_INNER) == 0u && stepsLeft != 0u) {
             stepsLeft--;
-            walk.ref = visitNode(ray.boxes, walk);
+            if (NODE_WIDTH == 4u) {
+                walk.ref = visitWideNode(ray.onGrid, walk);
+            } else {
+                walk.ref = visitNode(ray.boxes, walk);
+            }
         }
         if ((walk.ref & REF_NOT_INNER) == 0u && stepsLeft != 0u) faults |= FAULT_LOOP_CUT;
         if (walk.ref == REF_NONE || stepsLeft == 0u || faults != 0u) break;

@@ -46,6 +46,23 @@ GPU_STRUCT_SIZE(BvhNode, 64);
 GPU_FIELD(BvhNode, ref1, 28);
 GPU_FIELD(BvhNode, hi1, 48);
 
+// A node of the wide tree, which is made of the one above and walked in its place where it is faster: up to
+// four children, their boxes' planes on a grid of 2^16 steps along each axis of the tree. A plane is at
+//   (q + gridAt) 2^k,  q its 16 bits, gridAt a whole number, k an integer for each axis
+// and the box that the planes bound encloses the child's box. GRID_BIAS + k are the bytes of gridScale, x
+// lowest; gridAt and gridScale are the tree's: in Frame for the world, in ObjectInstance for an object.
+struct WideNode
+{
+    uvec4 x;     // of every child the lower plane's bits | the upper's << 16
+    uvec4 y;
+    uvec4 z;
+    uvec4 refs;  // see above; inner nodes by their index in `wideNodes`; REF_NONE: no child
+};
+GPU_STRUCT_SIZE(WideNode, 64);
+GPU_FIELD(WideNode, refs, 48);
+
+SHARED_CONST uint GRID_BIAS = 127u;
+
 // A triangle or a sphere. Stored in the order of the leaves.
 struct Primitive
 {
@@ -91,17 +108,17 @@ struct ObjectInstance
     vec3 toObject2;
     uint material;      // of all its primitives, or NO_MATERIAL: each has its own
     vec3 toWorld0;
-    uint unused0;
+    float gridX;        // gridAt of the object's wide tree; 0 in the binary one, as gridScale
     vec3 toWorld1;
-    uint unused1;
+    float gridY;
     vec3 toWorld2;
-    uint unused2;
+    float gridZ;
     vec3 translation;   // [m]
-    uint unused3;
+    uint gridScale;
     vec3 lo;            // box that a ray must meet to meet the object, world space [m]: that of the
-    uint unused4;       // object, widened by what the ray's way into the object's space may be rounded
+    uint unused0;       // object, widened by what the ray's way into the object's space may be rounded
     vec3 hi;
-    uint unused5;
+    uint unused1;
 };
 GPU_STRUCT_SIZE(ObjectInstance, 144);
 GPU_FIELD(ObjectInstance, firstNumber, 28);
@@ -310,17 +327,19 @@ struct Frame
     float lightPerPower; // their chance together over the sum of their weights; 0: shapes are left to chance
     float probeChance;   // probability that the choice takes the probe
     uint unused0;
+    vec3 gridAt;         // of the world's wide tree
+    uint gridScale;
     uint lightsAt;       // where parts of `tables` begin [16 bytes]; the device's own affair
     uint aliasAt;
     uint texturesAt;
     uint textureTexelsAt;
 };
-GPU_STRUCT_SIZE(Frame, 320);
+GPU_STRUCT_SIZE(Frame, 336);
 GPU_FIELD(Frame, probe, 96);
 GPU_FIELD(Frame, rootRef, 240);
 GPU_FIELD(Frame, shading, 268);
 GPU_FIELD(Frame, lightSampling, 284);
-GPU_FIELD(Frame, textureTexelsAt, 316);
+GPU_FIELD(Frame, textureTexelsAt, 332);
 
 SHARED_END
 

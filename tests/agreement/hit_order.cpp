@@ -38,13 +38,14 @@ Traversal bruteForce(reference::Kernel<>& kernel, const Ray& ray)
 struct Differences {
     std::atomic<uint64_t> sweepNear = 0, sweepLeft = 0, sweepRight = 0;
     std::atomic<uint64_t> binnedNear = 0, binnedLeft = 0, binnedRight = 0;
+    std::atomic<uint64_t> wideNear = 0, wideLeft = 0, wideRight = 0;  ///< of the sweep's tree
     std::atomic<uint64_t> anyHit = 0;  ///< of a ray that ends at, or just before, its closest hit
     std::atomic<uint64_t> hits = 0;
 };
 
 /// Any hit must agree with the closest hit at tHit: met when the ray ends there, not met before.
-template <uint Order>
-bool anyHitAgrees(reference::Kernel<Order>& kernel, const Ray& ray, const Traversal& closest)
+template <class Kernel>
+bool anyHitAgrees(Kernel& kernel, const Ray& ray, const Traversal& closest)
 {
     const bool found = findHit(kernel, ray, true, closest.tHit).slot != NO_HIT;
     if (closest.slot == NO_HIT) return !found;
@@ -52,8 +53,8 @@ bool anyHitAgrees(reference::Kernel<Order>& kernel, const Ray& ray, const Traver
     return found && findHit(kernel, ray, true, before).slot == NO_HIT;
 }
 
-void compare(const Bvh& scene, const Bvh& sweep, const Bvh& binned, std::span<const Ray> rays,
-             Differences& differences)
+void compare(const Bvh& scene, const Bvh& sweep, const Bvh& binned, const WideTrees& wide,
+             std::span<const Ray> rays, Differences& differences)
 {
     auto brute = kernelFor<ORDER_NEAR_FIRST>(scene);
     auto check = [](const Bvh& tree, auto order, const Ray& ray, const Traversal& truth,
@@ -61,6 +62,11 @@ void compare(const Bvh& scene, const Bvh& sweep, const Bvh& binned, std::span<co
         auto kernel = kernelFor<decltype(order)::value>(tree);
         differing += bitsOf(closestHit(kernel, ray)) != bitsOf(truth);
         anyDiffering += !anyHitAgrees(kernel, ray, truth);
+    };
+    auto checkWide = [&](auto order, const Ray& ray, const Traversal& truth, std::atomic<uint64_t>& differing) {
+        auto kernel = wideKernelFor<decltype(order)::value>(sweep, wide);
+        differing += bitsOf(closestHit(kernel, ray)) != bitsOf(truth);
+        differences.anyHit += !anyHitAgrees(kernel, ray, truth);
     };
     using Near = std::integral_constant<uint, ORDER_NEAR_FIRST>;
     using Left = std::integral_constant<uint, ORDER_LEFT_FIRST>;
@@ -74,6 +80,9 @@ void compare(const Bvh& scene, const Bvh& sweep, const Bvh& binned, std::span<co
         check(binned, Near{}, ray, truth, differences.binnedNear, differences.anyHit);
         check(binned, Left{}, ray, truth, differences.binnedLeft, differences.anyHit);
         check(binned, Right{}, ray, truth, differences.binnedRight, differences.anyHit);
+        checkWide(Near{}, ray, truth, differences.wideNear);
+        checkWide(Left{}, ray, truth, differences.wideLeft);
+        checkWide(Right{}, ray, truth, differences.wideRight);
     }
 }
 
@@ -84,13 +93,14 @@ void expectSameBits(const std::vector<Primitive>& triangles, const std::vector<R
     const unsigned threads = defaultThreadCount();
     const Bvh sweep = buildBvh(triangles, BvhBuild::sweep, threads);
     const Bvh binned = buildBvh(triangles, BvhBuild::binned, threads);
+    const WideTrees wide = widen(sweep.nodes, {}, sweep.rootRef, 0);
     Bvh scene;
     scene.primitives = triangles;
     Differences differences;
     constexpr size_t CHUNK = 256;
     parallelFor((rays.size() + CHUNK - 1) / CHUNK, threads, [&](size_t chunk) {
         const size_t first = chunk * CHUNK, count = std::min(CHUNK, rays.size() - first);
-        compare(scene, sweep, binned, std::span(rays).subspan(first, count), differences);
+        compare(scene, sweep, binned, wide, std::span(rays).subspan(first, count), differences);
     });
     EXPECT_EQ(differences.sweepNear, 0u);
     EXPECT_EQ(differences.sweepLeft, 0u);
@@ -98,6 +108,9 @@ void expectSameBits(const std::vector<Primitive>& triangles, const std::vector<R
     EXPECT_EQ(differences.binnedNear, 0u);
     EXPECT_EQ(differences.binnedLeft, 0u);
     EXPECT_EQ(differences.binnedRight, 0u);
+    EXPECT_EQ(differences.wideNear, 0u);
+    EXPECT_EQ(differences.wideLeft, 0u);
+    EXPECT_EQ(differences.wideRight, 0u);
     EXPECT_EQ(differences.anyHit, 0u);
     EXPECT_GT(differences.hits, rays.size() / 10);
     ::testing::Test::RecordProperty("hits", std::to_string(differences.hits));

@@ -69,11 +69,10 @@ Hit bitsOf(const Traversal& walk)
             glm::floatBitsToUint(walk.b1), glm::floatBitsToUint(walk.b2)};
 }
 
-/// A walk that stops after every few steps and goes on in a fresh kernel, as on a device.
-template <uint Order>
-Traversal hitInPieces(const Bvh& bvh, const Ray& ray, uint steps)
+/// A walk that stops after every few steps and goes on, as on a device.
+template <class Kernel>
+Traversal hitInPieces(Kernel kernel, const Ray& ray, uint steps)
 {
-    auto kernel = kernelFor<Order>(bvh);
     Traversal walk = kernel.beginTraversal(reference::Kernel<>::RAY_INFINITY);
     for (;;) {
         kernel.stepsLeft = steps;
@@ -82,12 +81,11 @@ Traversal hitInPieces(const Bvh& bvh, const Ray& ray, uint steps)
     }
 }
 
-template <uint Order>
-bool agrees(const Bvh& bvh, const Ray& ray, const Traversal& truth)
+template <class Kernel>
+bool agrees(Kernel kernel, const Ray& ray, const Traversal& truth)
 {
-    auto kernel = kernelFor<Order>(bvh);
     if (bitsOf(closestHit(kernel, ray)) != bitsOf(truth)) return false;
-    if (bitsOf(hitInPieces<Order>(bvh, ray, 3)) != bitsOf(truth)) return false;
+    if (bitsOf(hitInPieces(kernel, ray, 3)) != bitsOf(truth)) return false;
     const bool found = findHit(kernel, ray, true, truth.tHit).slot != NO_HIT;
     if (truth.slot == NO_HIT) return !found;
     const float before = std::nextafter(truth.tHit, 0.0f);
@@ -100,6 +98,7 @@ void expectSameBits(const PlacedScene& scene, std::span<const Ray> rays, double 
         buildTwoLevels(scene.world, scene.objects, scene.placements, reach, BvhBuild::sweep, 1);
     const Bvh binned =
         buildTwoLevels(scene.world, scene.objects, scene.placements, reach, BvhBuild::binned, 1);
+    const WideTrees wide = widen(sweep.nodes, sweep.instances, sweep.rootRef, reach);
     const BruteScene brute = bruteSceneOf(scene, sweep);
     std::atomic<uint64_t> differing = 0, hits = 0, hitsInside = 0;
     constexpr size_t CHUNK = 256;
@@ -111,10 +110,13 @@ void expectSameBits(const PlacedScene& scene, std::span<const Ray> rays, double 
             hits += truth.slot != NO_HIT;
             hitsInside += truth.instance != NO_INSTANCE;
             for (const Bvh* tree : {&sweep, &binned}) {
-                differing += !agrees<ORDER_NEAR_FIRST>(*tree, rays[i], truth);
-                differing += !agrees<ORDER_LEFT_FIRST>(*tree, rays[i], truth);
-                differing += !agrees<ORDER_RIGHT_FIRST>(*tree, rays[i], truth);
+                differing += !agrees(kernelFor<ORDER_NEAR_FIRST>(*tree), rays[i], truth);
+                differing += !agrees(kernelFor<ORDER_LEFT_FIRST>(*tree), rays[i], truth);
+                differing += !agrees(kernelFor<ORDER_RIGHT_FIRST>(*tree), rays[i], truth);
             }
+            differing += !agrees(wideKernelFor<ORDER_NEAR_FIRST>(sweep, wide), rays[i], truth);
+            differing += !agrees(wideKernelFor<ORDER_LEFT_FIRST>(sweep, wide), rays[i], truth);
+            differing += !agrees(wideKernelFor<ORDER_RIGHT_FIRST>(sweep, wide), rays[i], truth);
         }
     });
     EXPECT_EQ(differing, 0u);

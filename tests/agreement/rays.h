@@ -3,6 +3,7 @@
 
 #include "bvh/box.h"
 #include "bvh/bvh.h"
+#include "bvh/widen.h"
 #include "reference/kernel.h"
 #include "scene/scene.h"
 #include "support/soups.h"
@@ -135,9 +136,24 @@ reference::Kernel<Order> kernelFor(const Bvh& bvh)
     return kernel;
 }
 
-/// The closest hit up to tMax, or any hit. A fault of the traversal is an error.
+/// Likewise for the wide trees made of it.
 template <uint Order>
-Traversal findHit(reference::Kernel<Order>& kernel, const Ray& ray, bool anyHit, float tMax)
+reference::Kernel<Order, true, false, 4> wideKernelFor(const Bvh& bvh, const WideTrees& wide)
+{
+    if (wide.nodes.empty() && !bvh.nodes.empty()) throw std::runtime_error("there is no wide tree");
+    reference::Kernel<Order, true, false, 4> kernel = {};
+    kernel.wideNodes = wide.nodes;
+    kernel.primitives = bvh.primitives;
+    kernel.instances = wide.instances;
+    kernel.frame.rootRef = wide.rootRef;
+    kernel.frame.gridAt = wide.gridAt;
+    kernel.frame.gridScale = wide.gridScale;
+    return kernel;
+}
+
+/// The closest hit up to tMax, or any hit. A fault of the traversal is an error.
+template <class Kernel>
+Traversal findHit(Kernel& kernel, const Ray& ray, bool anyHit, float tMax)
 {
     kernel.faults = 0;
     kernel.stepsLeft = 0xffffffffu;
@@ -147,10 +163,10 @@ Traversal findHit(reference::Kernel<Order>& kernel, const Ray& ray, bool anyHit,
     return walk;
 }
 
-template <uint Order>
-Traversal closestHit(reference::Kernel<Order>& kernel, const Ray& ray)
+template <class Kernel>
+Traversal closestHit(Kernel& kernel, const Ray& ray)
 {
-    return findHit(kernel, ray, false, reference::Kernel<Order>::RAY_INFINITY);
+    return findHit(kernel, ray, false, Kernel::RAY_INFINITY);
 }
 
 }  // namespace sahl::testing

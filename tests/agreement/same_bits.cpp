@@ -139,6 +139,16 @@ TEST_F(SameBits, forEveryOrderOfTraversal)
     }
 }
 
+TEST_F(SameBits, forNodesOfTwoAndOfFourChildren)
+{
+    DeviceOptions options;
+    options.nodeWidth = 2;
+    const Film cpu = renderFilm(*makeCpuDevice(options), scene());
+    expectSameLight(cpu, reference());
+    EXPECT_NE(cpu.counters.boxTests, reference().counters.boxTests);
+    EXPECT_TRUE(onDevice(options) == cpu);
+}
+
 TEST_F(SameBits, inOneGoAndMergedFromParts)
 {
     auto device = openFirstDevice();

@@ -72,6 +72,7 @@ void main()
     put(f.ambient); put(f.shading);
     put(f.samplerKind); put(f.rouletteDepth); put(f.clampIndirect); put(f.lightSampling);
     put(f.choiceCount); put(f.lightPerPower); put(f.probeChance); put(f.unused0);
+    put(f.gridAt); put(f.gridScale);
     put(f.lightsAt); put(f.aliasAt); put(f.texturesAt); put(f.textureTexelsAt);
     PixelBlock b = blocks[1];
     put(b.sum); put(b.sumY2); put(b.digest); put(b.samplesDone); put(b.status); put(b.badSamples);
@@ -88,8 +89,8 @@ void main()
     for (uint i = 0u; i < MAX_SUSPENDED_STACK; i++) put(paths[1].stack[i]);
     ObjectInstance o = instances[1];
     put(o.toObject0); put(o.rootRef); put(o.toObject1); put(o.firstNumber); put(o.toObject2); put(o.material);
-    put(o.toWorld0); put(o.unused0); put(o.toWorld1); put(o.unused1); put(o.toWorld2); put(o.unused2);
-    put(o.translation); put(o.unused3); put(o.lo); put(o.unused4); put(o.hi); put(o.unused5);
+    put(o.toWorld0); put(o.gridX); put(o.toWorld1); put(o.gridY); put(o.toWorld2); put(o.gridZ);
+    put(o.translation); put(o.gridScale); put(o.lo); put(o.unused0); put(o.hi); put(o.unused1);
     Texture x = textures[1];
     put(x.firstTexel); put(x.width); put(x.height); put(x.flags); put(x.rowS); put(x.strength);
     put(x.rowT); put(x.unused0); put(x.mean); put(x.unused1);

@@ -80,6 +80,13 @@ void recountSample(Kernel<>& kernel, uint x, uint y, uint index, Recount& count)
     }
 }
 
+std::unique_ptr<Device> binaryDevice()
+{
+    DeviceOptions options;
+    options.nodeWidth = 2;
+    return makeCpuDevice(options);
+}
+
 Kernel<> kernelOf(const PreparedScene& prepared)
 {
     const DeviceScene scene = prepared.deviceScene();
@@ -102,7 +109,7 @@ TEST(WorkCounts, ofEveryPixelAreThoseOfARecountOfAllItsRays)
     const uint32_t spp = 11;  // two blocks
     const PreparedScene prepared =
         prepareScene(builtInScene(smallPicture(24, 18, spp)), BvhBuild::automatic, 1);
-    const Film film = renderFilm(*makeCpuDevice({}), prepared, 0, spp, 7);
+    const Film film = renderFilm(*binaryDevice(), prepared, 0, spp, 7);
     ASSERT_GT(film.counters.shadowRays, 100u);
     ASSERT_GT(film.counters.indirectRays, 100u);
 
@@ -187,7 +194,7 @@ TEST(WorkCounts, ofCameraRaysAreThoseOfARecountInDoublePrecision)
     addMaterialOf(scene, MATERIAL_LAMBERT, vec3(0.5f));
     lookFrom(scene, {0.3, 1.7, -2.9}, {0.05, 0.02, 0.01}, 50);
     const PreparedScene prepared = prepareScene(std::move(scene), BvhBuild::sweep, 1);
-    const Film film = renderFilm(*makeCpuDevice({}), prepared, 0, 1);
+    const Film film = renderFilm(*binaryDevice(), prepared, 0, 1);
     ASSERT_EQ(film.counters.indirectRays + film.counters.shadowRays, 0u);
 
     Kernel<> kernel = kernelOf(prepared);

@@ -1,6 +1,7 @@
 // sahl bench: the report's benchmark on meshes that are here, and what it says of those that are
-// not.
+// not; the others on tiny scenes.
 #include "cli/sahl_program.h"
+#include "support/source_folder.h"
 
 namespace sahl::testing {
 namespace {
@@ -61,11 +62,89 @@ TEST_F(Bench, aMeshOfTheReportsSize_getsTheReportsLineAndRatios)
     EXPECT_FALSE(row["ratios"].contains("buildSeconds")) << "the report says 0";
 }
 
+/// `sahl bench NAME` of tiny generated scenes on the CPU, once each.
+class BenchOf : public SceneFolderTest {
+protected:
+    nlohmann::json measured(const std::string& name, const Arguments& more = {}) const
+    {
+        Arguments all = {"bench",    name, "--size", "16",  "--triangles", "500",  "--repeat", "2",
+                         "--device", "cpu", "-q",    "--json", "bench.json"};
+        all.insert(all.end(), more.begin(), more.end());
+        const RunResult result = sahl(all, here());
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        const nlohmann::json json = nlohmann::json::parse(textOf(folder / "bench.json"));
+        EXPECT_EQ(json["benchmark"], name);
+        return json;
+    }
+};
+
+TEST_F(BenchOf, traversal_tracesTheSameRaysByAll)
+{
+    const nlohmann::json json = measured("traversal");
+    ASSERT_EQ(json["rows"].size(), 6u) << "three kinds of two scenes";
+    EXPECT_EQ(json["rows"][0]["rays"], 16 * 16);
+    for (const nlohmann::json& row : json["rows"]) {
+        EXPECT_GT(row["boxTestsPerRay"], 1);
+        EXPECT_GT(row["hits"], 0);
+        for (const nlohmann::json& tracer : row["tracers"]) {
+            EXPECT_EQ(tracer["seconds"].size(), 2u);
+            EXPECT_NEAR(tracer["hits"].get<double>(), row["hits"].get<double>(), 2) << row["kind"];
+        }
+    }
+}
+
+TEST_F(BenchOf, render_makesPicturesOfTheSameBrightness)
+{
+    const nlohmann::json json = measured("render", {"--spp", "32"});
+    const nlohmann::json& rows = json["rows"];
+    ASSERT_GE(rows.size(), 2u);
+    for (size_t i = 1; i < rows.size(); i++) {
+        if (rows[i]["scene"] != rows[i - 1]["scene"]) continue;
+        EXPECT_NEAR(rows[i]["mean"].get<double>(), rows[i - 1]["mean"].get<double>(), 0.02);
+        EXPECT_NEAR(rows[i]["raysPerSample"].get<double>(), rows[i - 1]["raysPerSample"].get<double>(), 0.2);
+    }
+}
+
+TEST_F(BenchOf, build_countsTheTestsOfEveryTree)
+{
+    const nlohmann::json json = measured("build", {"ball.json"});
+    ASSERT_GE(json["rows"].size(), 2u);
+    for (const nlohmann::json& row : json["rows"]) {
+        EXPECT_EQ(row["scene"], "ball");
+        EXPECT_EQ(row["triangles"], 320);
+        if (!row.contains("depth")) continue;  // Embree's own
+        EXPECT_GT(row["primitiveTestsPerRay"], 0);
+    }
+}
+
+TEST_F(BenchOf, start_runsTheProgramItself)
+{
+    const nlohmann::json row = measured("start")["rows"].at(0);
+    EXPECT_EQ(row["coldSeconds"].size(), 2u);
+    EXPECT_GT(row["warmSeconds"][0], row["loadSeconds"]);
+}
+
+TEST_F(BenchOf, scale_drawsAPlot)
+{
+    const nlohmann::json json = measured("scale", {"--plot", "scale.png"});
+    EXPECT_EQ(json["byTriangles"].size(), 1u);
+    EXPECT_EQ(json["bySamples"].size(), 6u);
+    EXPECT_TRUE(textOf(folder / "scale.png").starts_with("\x89PNG"));
+}
+
+TEST_F(BenchOf, scenesWithInstances_areRefused)
+{
+    const fs::path instances = sourceFolder() / "tests/scenes/instances.json";
+    expectRefused(sahl({"bench", "build", instances.string(), "--device", "cpu"}), 3, "has instances");
+}
+
 TEST_F(Bench, namesOfBenchmarks_areChecked)
 {
     expectRefused(sahl({"bench"}), 2,
-                  "sahl: name a benchmark; there is one benchmark: sahl bench report");
-    expectRefused(sahl({"bench", "fast"}), 2, "'fast' is not known; there is one benchmark");
+                  "sahl: name a benchmark: report, traversal, render, build, start or scale");
+    expectRefused(sahl({"bench", "fast"}), 2, "benchmark 'fast' is not known: report");
+    expectRefused(sahl({"bench", "report", "ball.json"}), 2, "measures scenes of its own, not 'ball.json'");
+    expectRefused(sahl({"bench", "build", "--plot", "x.png"}), 2, "a plot of sahl bench scale alone");
 }
 
 }  // namespace

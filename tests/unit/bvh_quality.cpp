@@ -1,6 +1,7 @@
 // How good the trees are: against exhaustive search, against each other, against a naive builder.
 #include "bvh/box.h"
 #include "bvh/bvh.h"
+#include "bvh/reinsert.h"
 #include "support/soups.h"
 
 #include <gtest/gtest.h>
@@ -152,6 +153,44 @@ TEST(BvhQuality, heuristic_beatsMedianSplitsWhenSizesDiffer)
     for (const Primitive& t : randomSoup(2000, 1.0f, 12))
         testing::addTriangle(triangles, t.p0 * 10.0f, t.p1 * 10.0f, t.p2 * 10.0f);
     expectRanking(triangles);
+}
+
+TEST(BvhQuality, reinsertion_makesTreesCheaper)
+{
+    for (const std::vector<Primitive>& triangles : {randomSoup(5000, 0.2f, 14), testing::torus(100, 40)}) {
+        const double standard = buildBvh(triangles, BvhBuild::sweep, 2).statistics.sahCost;
+        const double high = buildBvh(triangles, BvhBuild::high, 2).statistics.sahCost;
+        EXPECT_LT(high, 0.99 * standard);
+    }
+}
+
+/// Two clusters whose triangles take turns: halves of the order mix them, and moves part them again.
+TEST(BvhQuality, reinsertion_partsWhatAPoorTreeMixes)
+{
+    std::vector<Primitive> triangles;
+    for (uint i = 0; i < 64; i++) {
+        const float x = static_cast<float>(i % 2) * 100 + static_cast<float>(i) * 0.1f;
+        testing::addTriangle(triangles, {x, 0, 0}, {x + 0.1f, 0, 0}, {x, 0.1f, 0.1f});
+    }
+    std::vector<Box> boxes;
+    for (const Primitive& triangle : triangles) boxes.push_back(boxOf(triangle));
+    Draft draft;  // leaves of 8 in the order of numbers, whatever their place
+    draft.nodes.resize(2 * 64 - 1);
+    for (uint i = 0; i < 64; i++) draft.order.push_back(i);
+    auto divide = [&](auto& self, const Subtree& tree) -> void {
+        const bool isLeaf = tree.count <= MAX_LEAF_SIZE;
+        const Subtree right = rightOf(tree, tree.count / 2);
+        draft.nodes[tree.slot] = {tree.first, tree.count, isLeaf ? 0 : right.slot};
+        if (isLeaf) return;
+        self(self, leftOf(tree, tree.count / 2));
+        self(self, right);
+    };
+    divide(divide, {0, 64, 0, MAX_STACK_SIZE});
+    const double poor = flatten(draft, {triangles, {}, {}}, boxes).statistics.sahCost;
+    improveByReinsertion(draft, boxes, MAX_STACK_SIZE, 1);
+    const Bvh better = flatten(draft, {triangles, {}, {}}, boxes);
+    EXPECT_LT(better.statistics.sahCost, 0.5 * poor);
+    EXPECT_LT(better.statistics.sahCost, 1.1 * buildBvh(triangles, BvhBuild::sweep, 1).statistics.sahCost);
 }
 
 /// The statistic against its definition, summed here from the finished tree.

@@ -228,6 +228,14 @@ TEST(Bvh, binned_isSoundOnNastyInputs)
     }
 }
 
+TEST(Bvh, high_isSoundOnNastyInputs)
+{
+    for (const Named& input : nastyInputs()) {
+        SCOPED_TRACE(input.name);
+        expectSound(input.triangles, BvhBuild::high);
+    }
+}
+
 bool sameBits(const Bvh& a, const Bvh& b)
 {
     auto same = [](const auto& x, const auto& y) {
@@ -251,6 +259,15 @@ TEST(Bvh, threads_doNotChangeTheBits)
     }
 }
 
+TEST(Bvh, threads_doNotChangeTheBitsOfHighQuality)
+{
+    for (const std::vector<Primitive>& triangles : {randomSoup(5000, 0.05f, 7), testing::torus(60, 40)}) {
+        const Bvh one = buildBvh(triangles, BvhBuild::high, 1);
+        EXPECT_TRUE(sameBits(one, buildBvh(triangles, BvhBuild::high, 2)));
+        EXPECT_TRUE(sameBits(one, buildBvh(triangles, BvhBuild::high, 3)));
+    }
+}
+
 TEST(Bvh, coincidentTriangles_makeAShallowTree)
 {
     for (BvhBuild build : {BvhBuild::sweep, BvhBuild::binned}) {
@@ -270,7 +287,7 @@ TEST(Bvh, depth_isCutAtTheStackSize)
 
 TEST(Bvh, noTriangles_makeNoTree)
 {
-    for (BvhBuild build : {BvhBuild::automatic, BvhBuild::sweep, BvhBuild::binned}) {
+    for (BvhBuild build : {BvhBuild::automatic, BvhBuild::sweep, BvhBuild::binned, BvhBuild::high}) {
         const Bvh bvh = buildBvh({}, build, 2);
         EXPECT_EQ(bvh.rootRef, REF_NONE);
         EXPECT_TRUE(bvh.nodes.empty());

@@ -1,6 +1,6 @@
-#include "app/bench_scenes.h"
+#include "app/bench/report_scenes.h"
 
-#include "app/bench_bunnies.h"
+#include "app/bench/bunnies.h"
 #include "scene/primitives.h"
 #include "scene/probe.h"
 

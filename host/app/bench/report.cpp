@@ -1,14 +1,10 @@
-// sahl bench: counts and times of the report's benchmark, beside what the report printed.
+// sahl bench report: counts and times of the report's benchmark, beside what the report printed.
 
-#include "app/bench_scenes.h"
-#include "app/commands.h"
-#include "app/option_kinds.h"
-#include "app/options.h"
+#include "app/bench/bench.h"
+#include "app/bench/report_scenes.h"
 #include "app/stats.h"
 #include "render/prepare.h"
 #include "render/render.h"
-#include "sahl_version.h"
-#include "util/error.h"
 #include "util/interrupt.h"
 #include "util/messages.h"
 
@@ -23,15 +19,6 @@ namespace sahl {
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-struct BenchOptions {
-    CommonOptions common;
-    std::string benchmark;
-    std::string assets;
-    std::string jsonPath;
-    uint32_t size = 512;
-    uint32_t repeat = 3;
-};
 
 /// What was counted and timed of a scene.
 struct BenchRow {
@@ -59,6 +46,11 @@ std::vector<fs::path> assetFolders(const BenchOptions& options)
     return folders;
 }
 
+uint32_t repeats(const BenchOptions& options)
+{
+    return options.repeat > 0 ? options.repeat : 3;
+}
+
 /// Renders `repeat` times: the counts are the same each time, of the seconds the least is taken.
 BenchRow measure(const BenchScene& described, const fs::path& mesh, const BenchOptions& options,
                  Device& device)
@@ -76,7 +68,7 @@ BenchRow measure(const BenchScene& described, const fs::path& mesh, const BenchO
     plan.tileSize = options.common.tileSize;
     double renderSeconds = 0;
     Counters counters = {};
-    for (uint32_t i = 0; i < options.repeat && interruptSignal() == 0; i++) {
+    for (uint32_t i = 0; i < repeats(options) && interruptSignal() == 0; i++) {
         const RenderResult result = renderPicture(device, plan, [](const RenderProgress&) {});
         counters = result.film.counters;
         renderSeconds = i == 0 ? result.seconds : std::min(renderSeconds, result.seconds);
@@ -157,11 +149,9 @@ Json benchJson(const std::vector<BenchRow>& rows, const std::vector<Missing>& mi
                const BenchOptions& options, const Device& device)
 {
     const DeviceInfo info = device.info();
-    Json json = {{"version", 1},
-                 {"sahl", SAHL_VERSION},
-                 {"device", {{"name", info.name}, {"driver", info.driver}, {"kind", info.kind}}},
+    Json json = {{"device", {{"name", info.name}, {"driver", info.driver}, {"kind", info.kind}}},
                  {"size", options.size},
-                 {"repeat", options.repeat},
+                 {"repeat", repeats(options)},
                  {"rows", Json::array()},
                  {"missing", Json::array()}};
     for (const BenchRow& row : rows) json["rows"].push_back(rowJson(row));
@@ -203,23 +193,20 @@ void printRow(const BenchRow& row)
 void printHead(const BenchOptions& options)
 {
     answer("{} x {} pixels, 1 ray each; the best of {} (docs/bench.md)\n", options.size,
-           options.size, options.repeat);
+           options.size, repeats(options));
     answer("{:<10} {:>9} {:>9} {:>11} {:>11} {:>9} {:>9} {:>11} {:>9}\n", "scene", "nodes",
            "leaves", "traversals", "triangles", "tree [s]", "image [s]", "trav. a ray",
            "tri. a ray");
 }
 
-int runBench(BenchOptions& options)
+}  // namespace
+
+Json benchReport(const BenchOptions& options)
 {
-    setQuiet(options.common.quiet);
-    if (options.benchmark != "report") {
-        throw usageError("{}; there is one benchmark: sahl bench report",
-                         options.benchmark.empty() ? "name a benchmark"
-                                                   : "'" + options.benchmark + "' is not known");
-    }
-    if (!options.jsonPath.empty()) requireWritable(options.jsonPath);
     const std::vector<fs::path> folders = assetFolders(options);
-    std::unique_ptr<Device> device = openDeviceFor(options.common);
+    CommonOptions common = options.common;
+    common.deviceOptions.nodeWidth = 2;  // as the report's program, whose counts stand beside ours
+    std::unique_ptr<Device> device = openDeviceFor(common);
     std::vector<BenchRow> rows;
     std::vector<Missing> missing;
     printHead(options);
@@ -232,48 +219,12 @@ int runBench(BenchOptions& options)
             continue;
         }
         const BenchRow row = measure(scene, mesh, options, *device);
-        if (interruptSignal() != 0) return interruptedExitCode();
+        if (interruptSignal() != 0) break;
         printRow(row);
         flushAnswers();
         rows.push_back(row);
     }
-    if (!options.jsonPath.empty()) {
-        writeFileAtomically(fs::path(options.jsonPath),
-                            benchJson(rows, missing, options, *device).dump(2) + "\n");
-    }
-    return 0;
-}
-
-}  // namespace
-
-Command addBenchCommand(CLI::App& app)
-{
-    auto options = std::make_shared<BenchOptions>();
-    CLI::App* command =
-        app.add_subcommand("bench", "count and time the report's benchmark")->group("Commands");
-    command->add_option("benchmark", options->benchmark, "report: its figure 11")
-        ->type_name("report");
-    command
-        ->add_option("--assets", options->assets,
-                     withDefault("folder of meshes", "$SAHL_ASSETS, then .assets"))
-        ->type_name("DIR")
-        ->group("Scene");
-    addNumber(*command, "--size", options->size, {1, 8192}, "width and height [pixels]", "512")
-        ->group("Picture");
-    addNumber(*command, "--repeat", options->repeat, {1, 1000},
-              "pictures of each scene; the fastest counts", "3")
-        ->group("Picture");
-    command
-        ->add_option("--json", options->jsonPath,
-                     withDefault("write the table as JSON (docs/bench.md)", "none"))
-        ->type_name("FILE")
-        ->group("Output");
-    addDeviceOptions(*command, options->common);
-    addMessageOptions(*command, options->common);
-    command->footer("Examples:\n"
-                    "  sahl bench report\n"
-                    "  sahl bench report --device cpu --json bench.json");
-    return [options] { return runBench(*options); };
+    return benchJson(rows, missing, options, *device);
 }
 
 }  // namespace sahl

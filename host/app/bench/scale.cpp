@@ -1,0 +1,182 @@
+// sahl bench scale: how cost grows with triangles, threads, pixels and samples.
+
+#include "app/bench/bench.h"
+#include "app/bench/embree.h"
+#include "app/bench/rays.h"
+#include "app/bench/rounds.h"
+#include "app/bench/scenes.h"
+#include "app/bench/table.h"
+#include "image/line_chart.h"
+#include "render/render.h"
+#include "util/interrupt.h"
+#include "util/messages.h"
+
+#include <chrono>
+
+namespace sahl {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr uint32_t ROUNDS = 5;
+constexpr uint32_t LEAST_TRIANGLES = 10'000, MOST_TRIANGLES = 10'000'000;
+constexpr uint32_t TRIANGLES = 70'000;  // where something else grows
+
+uint32_t roundsOf(const BenchOptions& options)
+{
+    return options.repeat > 0 ? options.repeat : ROUNDS;
+}
+
+double renderSeconds(Device& device, uint32_t size, uint32_t spp)
+{
+    RenderPlan plan;
+    plan.width = plan.height = size;
+    plan.sampleCount = spp;
+    return renderPicture(device, plan, [](const RenderProgress&) {}).seconds;
+}
+
+/// Diffuse rays through tori of more and more triangles, and the time to build their trees.
+Json growTriangles(const BenchOptions& options, Device& device, std::vector<LineChart>& charts)
+{
+    const unsigned threads = threadsFor(options.common);
+    const uint32_t most = options.triangles > 0 ? options.triangles : MOST_TRIANGLES;
+    ChartLine ours = {"sahl", {}}, theirs = {"embree", {}}, build = {"sahl", {}}, theirBuild = {"embree", {}};
+    Json rows = Json::array();
+    std::vector<TableRow> table;
+    for (uint64_t triangles = std::min(LEAST_TRIANGLES, most); triangles <= most; triangles *= 10) {
+        if (interruptSignal() != 0) break;
+        Scene scene = torusScene(static_cast<uint32_t>(triangles), options.size, 1);
+        const size_t count = scene.primitives.size();
+        const auto embree = makeEmbreeScene(scene.primitives, EmbreeBuild::standard, threads);
+        const PreparedScene prepared = prepareScene(std::move(scene), options.common.bvhBuild, threads);
+        device.setScene(prepared.deviceScene());
+        const RaySet diffuse = makeRays(prepared.scene, prepared.deviceScene(), options.size, threads).back();
+        std::vector<TraceHit> hits(diffuse.rays.size());
+        std::vector<Contestant> contestants = {{"sahl", [&] { return device.traceRays(diffuse.rays, false, hits); }}};
+        if (embree) contestants.push_back({"embree", [&] { return embree->trace(diffuse.rays, false, hits); }});
+        for (const Contestant& contestant : contestants) contestant.run();
+        const std::vector<Timing> timings = runRounds(contestants, roundsOf(options));
+        auto nanoseconds = [&](const Timing& timing) { return timing.median() * 1e9 / double(diffuse.rays.size()); };
+        Json row = {{"triangles", count},
+                    {"rays", diffuse.rays.size()},
+                    {"buildSeconds", prepared.bvh.statistics.seconds},
+                    {"nsPerRay", nanoseconds(timings[0])},
+                    {"spread", timings[0].spread()}};
+        ours.points.emplace_back(count, nanoseconds(timings[0]));
+        build.points.emplace_back(count, prepared.bvh.statistics.seconds);
+        TableRow line = {std::to_string(count), shortNumber(prepared.bvh.statistics.seconds),
+                         shortNumber(nanoseconds(timings[0])), "", ""};
+        if (embree) {
+            row["embreeBuildSeconds"] = embree->buildSeconds();
+            row["embreeNsPerRay"] = nanoseconds(timings[1]);
+            theirs.points.emplace_back(count, nanoseconds(timings[1]));
+            theirBuild.points.emplace_back(count, embree->buildSeconds());
+            line[3] = shortNumber(embree->buildSeconds());
+            line[4] = shortNumber(nanoseconds(timings[1]));
+        }
+        rows.push_back(row);
+        table.push_back(line);
+    }
+    printTable({"triangles", "tree [s]", "ns a ray", "Embree's tree", "Embree's ray"}, table);
+    charts.push_back({"ns a diffuse ray by triangles", {ours, theirs}});
+    charts.push_back({"seconds to build a tree by triangles", {build, theirBuild}});
+    return rows;
+}
+
+/// One number grows; nanoseconds of a sample are plotted.
+struct Growth {
+    const char* name;
+    std::vector<uint32_t> values;
+    std::function<double(uint32_t value)> seconds;
+    std::function<double(uint32_t value)> samples;
+};
+
+Json grow(const Growth& growth, const BenchOptions& options, std::vector<LineChart>& charts)
+{
+    std::vector<Contestant> contestants;
+    for (uint32_t value : growth.values)
+        contestants.push_back({std::to_string(value), [&growth, value] { return growth.seconds(value); }});
+    const std::vector<Timing> timings = runRounds(contestants, roundsOf(options));
+    ChartLine line = {"sahl", {}};
+    Json rows = Json::array();
+    std::vector<TableRow> table;
+    for (size_t i = 0; i < timings.size(); i++) {
+        const uint32_t value = growth.values[i];
+        const double nanoseconds = timings[i].median() * 1e9 / growth.samples(value);
+        rows.push_back({{growth.name, value},
+                        {"seconds", timings[i].seconds},
+                        {"nsPerSample", nanoseconds},
+                        {"spread", timings[i].spread()}});
+        table.push_back({std::to_string(value), shortNumber(timings[i].median()), shortNumber(nanoseconds),
+                         percent(timings[i].spread())});
+        if (nanoseconds > 0) line.points.emplace_back(value, nanoseconds);
+    }
+    printTable({growth.name, "seconds", "ns a sample", "spread"}, table);
+    charts.push_back({std::string("ns a sample by ") + growth.name, {line}});
+    return rows;
+}
+
+std::vector<uint32_t> doublings(uint32_t from, uint32_t to)
+{
+    std::vector<uint32_t> values;
+    for (uint32_t value = from; value < to; value *= 2) values.push_back(value);
+    values.push_back(to);
+    return values;
+}
+
+/// The same picture by 1, 2, 4, ... threads of the CPU.
+Json growThreads(const BenchOptions& options, const PreparedScene& scene, std::vector<LineChart>& charts)
+{
+    auto seconds = [&](uint32_t threads) {
+        DeviceOptions device = options.common.deviceOptions;
+        device.threads = threads;
+        const std::unique_ptr<Device> cpu = makeCpuDevice(device);
+        cpu->setScene(scene.deviceScene());
+        return renderSeconds(*cpu, options.size, BLOCK_SIZE);
+    };
+    auto samples = [&](uint32_t) { return double(options.size) * options.size * BLOCK_SIZE; };
+    return grow({"threads", doublings(1, threadsFor(options.common)), seconds, samples}, options, charts);
+}
+
+Json growPixels(const BenchOptions& options, Device& device, std::vector<LineChart>& charts)
+{
+    auto seconds = [&](uint32_t size) {
+        const PreparedScene scene =
+            prepareScene(torusScene(TRIANGLES, size, 1), options.common.bvhBuild, threadsFor(options.common));
+        device.setScene(scene.deviceScene());
+        return renderSeconds(device, size, BLOCK_SIZE);
+    };
+    auto samples = [](uint32_t size) { return double(size) * size * BLOCK_SIZE; };
+    const uint32_t least = std::max(options.size / 8, 1u);
+    return grow({"width", doublings(least, options.size), seconds, samples}, options, charts);
+}
+
+Json growSamples(const BenchOptions& options, Device& device, std::vector<LineChart>& charts)
+{
+    auto seconds = [&](uint32_t spp) { return renderSeconds(device, options.size, spp); };
+    auto samples = [&](uint32_t spp) { return double(options.size) * options.size * spp; };
+    return grow({"spp", doublings(1, 4 * BLOCK_SIZE), seconds, samples}, options, charts);
+}
+
+}  // namespace
+
+Json benchScale(const BenchOptions& options)
+{
+    const std::unique_ptr<Device> device = openDeviceFor(options.common);
+    std::vector<LineChart> charts;
+    Json json = {{"rounds", roundsOf(options)}, {"size", options.size}, {"threads", threadsFor(options.common)}};
+    json["byTriangles"] = growTriangles(options, *device, charts);
+    const PreparedScene scene = prepareScene(torusScene(TRIANGLES, options.size, 1), options.common.bvhBuild,
+                                             threadsFor(options.common));
+    json["byThreads"] = growThreads(options, scene, charts);
+    json["byPixels"] = growPixels(options, *device, charts);
+    device->setScene(scene.deviceScene());
+    renderSeconds(*device, options.size, 1);
+    json["bySamples"] = growSamples(options, *device, charts);
+    if (!options.plotPath.empty() && interruptSignal() == 0)
+        writeFileAtomically(fs::path(options.plotPath), encodePng(drawCharts(charts), {{"Software", "sahl"}}));
+    return json;
+}
+
+}  // namespace sahl

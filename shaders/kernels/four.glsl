@@ -1,0 +1,24 @@
+// Four numbers side by side, for the boxes of a wide node. host/reference/four.h has the same for C++.
+
+#define Four vec4
+#define FourUints uvec4
+
+uvec4 fourUints(uvec4 v) { return v; }
+
+uint pick(uvec4 v, uint i) { return v[i]; }
+
+vec4 fours(float x) { return vec4(x); }
+
+// By way of int, which all machines convert fast; exact below 2^24.
+vec4 floatsOf(uvec4 v) { return vec4(ivec4(v)); }
+
+uvec4 bitsOf(vec4 v) { return floatBitsToUint(v); }
+
+vec4 lesser4(vec4 a, vec4 b) { return mix(a, b, lessThan(b, a)); }
+
+vec4 greater4(vec4 a, vec4 b) { return mix(a, b, lessThan(a, b)); }
+
+/// All bits where a <= b, else 0.
+uvec4 allBitsWhere(vec4 a, vec4 b) { return mix(uvec4(0u), uvec4(0xffffffffu), lessThanEqual(a, b)); }
+
+uvec4 allBitsWhereNone(uvec4 refs) { return mix(uvec4(0u), uvec4(0xffffffffu), equal(refs, uvec4(REF_NONE))); }

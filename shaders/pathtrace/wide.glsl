@@ -1,0 +1,107 @@
+// Nodes of the wide tree: four boxes at once, on a grid of 16 bits.
+//
+// The walk relies on one thing (traverse.glsl): a box is met wherever a primitive's box in it is, and entered no
+// later, in the numbers that are computed. Here that is so for boxes on the grid, compared with boxes tested by
+// intersectBox():
+//   - A plane of a child, q + gridAt in steps of 2^k, lies on or beyond that of every box in the child; the host
+//     rounds it outwards, in numbers that are exact (host/bvh/widen.cpp).
+//   - makeGridRay() moves the ray's widened origin into the grid. Scaling by 2^-k is exact; the difference to
+//     gridAt is rounded, and then moved outwards by at least that rounding. So q - origin is at most what plane -
+//     origin is in steps for a lower plane, and at least that for an upper one; and rounding is monotone.
+//   - inverse 2^k is exact, and products are monotone too. So are the smallest and largest of them.
+// The host sees to it that no scaling leaves the range of numbers, whatever the ray; an infinite product is in
+// its place in the order, and none is infinity times 0.
+
+/// 2^k and 2^-k along the axes, from the bytes GRID_BIAS + k.
+vec3 gridSteps(uint gridScale)
+{
+    return vec3(uintBitsToFloat((gridScale & 0xffu) << 23u), uintBitsToFloat(((gridScale >> 8u) & 0xffu) << 23u),
+                uintBitsToFloat(((gridScale >> 16u) & 0xffu) << 23u));
+}
+
+vec3 gridCounts(uint gridScale)
+{
+    return gridSteps(0x00fefefeu - gridScale);
+}
+
+/// The ray as boxes on a grid need it: as in BoxRay, in steps from gridAt on.
+BoxRay makeGridRay(BoxRay ray, vec3 gridAt, uint gridScale)
+{
+    BoxRay onGrid;
+    onGrid.inverse = ray.inverse * gridSteps(gridScale);
+    vec3 counts = gridCounts(gridScale);
+    vec3 lo = ray.orgLo * counts - gridAt;
+    vec3 hi = ray.orgHi * counts - gridAt;
+    onGrid.orgLo = lo + (absolute3(lo) * 1.1920929e-07f + vec3(1e-30f));  // 2^-23
+    onGrid.orgHi = hi - (absolute3(hi) * 1.1920929e-07f + vec3(1e-30f));
+    return onGrid;
+}
+
+/// Tests the four boxes of a node against the part of the ray up to tMax.
+///   returns  for each child a key: larger where the ray enters later, the number of the child in its two lowest
+///            bits; WIDE_MISS where the box is not met
+FourUints intersectFour(BoxRay ray, READ(WideNode) node, float tMax)
+{
+    FourUints x = fourUints(node.x);
+    FourUints y = fourUints(node.y);
+    FourUints z = fourUints(node.z);
+    Four ax = (floatsOf(x & 0xffffu) - ray.orgLo.x) * ray.inverse.x;
+    Four bx = (floatsOf(x >> 16u) - ray.orgHi.x) * ray.inverse.x;
+    Four ay = (floatsOf(y & 0xffffu) - ray.orgLo.y) * ray.inverse.y;
+    Four by = (floatsOf(y >> 16u) - ray.orgHi.y) * ray.inverse.y;
+    Four az = (floatsOf(z & 0xffffu) - ray.orgLo.z) * ray.inverse.z;
+    Four bz = (floatsOf(z >> 16u) - ray.orgHi.z) * ray.inverse.z;
+    Four entry = greater4(greater4(lesser4(ax, bx), lesser4(ay, by)), greater4(lesser4(az, bz), fours(0.0f)));
+    Four leave = lesser4(lesser4(greater4(ax, bx), greater4(ay, by)), lesser4(greater4(az, bz), fours(tMax)));
+    FourUints number = fourUints(uvec4(0u, 1u, 2u, 3u));
+    if (TRAVERSAL_ORDER == ORDER_RIGHT_FIRST) number = fourUints(uvec4(3u, 2u, 1u, 0u));
+    // Without the sign: zero has either, and not the same on all devices
+    FourUints key = (bitsOf(entry) & 0x7ffffffcu) | number;
+    if (TRAVERSAL_ORDER != ORDER_NEAR_FIRST) key = number;
+    return key | ~allBitsWhere(entry, leave) | allBitsWhereNone(fourUints(node.refs));
+}
+
+CONST uint WIDE_MISS = 0xffffffffu;
+
+uint lesserUint(uint a, uint b) { return b < a ? b : a; }
+
+uint greaterUint(uint a, uint b) { return a < b ? b : a; }
+
+/// The reference of the child that a key of intersectFour() names.
+uint childOf(READ(WideNode) node, uint key)
+{
+    return pick(node.refs, TRAVERSAL_ORDER == ORDER_RIGHT_FIRST ? 3u - (key & 3u) : key & 3u);
+}
+
+/// Pushes the child that a key of intersectFour() names, if it is met. There is room for it in any case.
+void pushChild(READ(WideNode) node, uint key, INOUT(Traversal) walk)
+{
+    stack[walk.stackSize] = childOf(node, key);
+    walk.stackSize += key != WIDE_MISS ? 1u : 0u;
+}
+
+/// Visits an inner node of the wide tree: returns the child to visit next, the nearest one that is met, and
+/// pushes the others, the farthest first.
+uint visitWideNode(BoxRay ray, INOUT(Traversal) walk)
+{
+    READ(WideNode) node = loadWideNode(walk.ref);
+    tally.boxTests += 4u;
+    FourUints keys = intersectFour(ray, node, walk.tHit);
+    // A sorting network of five exchanges
+    uint a = lesserUint(keys[0], keys[1]);
+    uint b = greaterUint(keys[0], keys[1]);
+    uint c = lesserUint(keys[2], keys[3]);
+    uint d = greaterUint(keys[2], keys[3]);
+    uint first = lesserUint(a, c);
+    uint e = greaterUint(a, c);
+    uint f = lesserUint(b, d);
+    if (walk.stackSize + 3u > STACK_SIZE) {
+        faults |= FAULT_STACK_OVERFLOW;
+        return REF_NONE;
+    }
+    pushChild(node, greaterUint(b, d), walk);
+    pushChild(node, greaterUint(e, f), walk);
+    pushChild(node, lesserUint(e, f), walk);
+    if (first == WIDE_MISS) return popRef(walk);
+    return childOf(node, first);
+}
