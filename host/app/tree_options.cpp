@@ -6,14 +6,16 @@ namespace sahl {
 
 void addTreeOptions(CLI::App& command, CommonOptions& options)
 {
-    CLI::Option* build = addChoice(
-        command, "--bvh-build", options.bvhBuild,
-        {{"auto", BvhBuild::automatic}, {"sweep", BvhBuild::sweep}, {"binned", BvhBuild::binned}},
-        "auto, sweep (best tree) or binned (fast)");
-    build->group("Scene");
+    addChoice(command, "--bvh-build", options.bvhBuild,
+              {{"auto", BvhBuild::automatic}, {"sweep", BvhBuild::sweep}, {"binned", BvhBuild::binned}},
+              "auto, sweep (best tree) or binned (fast)")
+        ->group("Scene");
     auto setQuality = [&options](const std::string& word) {
         const std::vector<std::string> words = {"standard", "high"};
-        if (parseChoice("--bvh-quality", word, words) == 1) options.bvhBuild = BvhBuild::high;
+        if (parseChoice("--bvh-quality", word, words) == 0) return;
+        if (options.bvhBuild != BvhBuild::automatic)
+            throw CLI::ValidationError("--bvh-quality high chooses how to build by itself; leave --bvh-build out");
+        options.bvhBuild = BvhBuild::high;
     };
     command
         .add_option_function<std::string>("--bvh-quality", setQuality,
@@ -21,8 +23,7 @@ void addTreeOptions(CLI::App& command, CommonOptions& options)
                                                       "as long, for long renders",
                                                       "standard"))
         ->type_name("NAME")
-        ->group("Scene")
-        ->excludes(build);
+        ->group("Scene");
 }
 
 }  // namespace sahl

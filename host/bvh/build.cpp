@@ -75,7 +75,7 @@ Bvh buildTree(const TreeItems& items, uint levels, BvhBuild build, unsigned thre
         Draft draft = build == BvhBuild::sweep ? buildSweep(boxes, levels, threads)
                                                : buildBinned(boxes, levels, threads);
         if (high) improveByReinsertion(draft, boxes, levels, threads);
-        bvh = flatten(draft, items, boxes);
+        bvh = flatten(draft, items, boxes, threads);
     }
     bvh.statistics.build = high ? BvhBuild::high : build;
     return bvh;

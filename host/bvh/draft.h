@@ -97,7 +97,7 @@ struct TreeItems {
 
 /// The tree as the device reads it, with its statistics except `seconds` and `build`. An instance
 /// has no leaf but a reference of its own.
-Bvh flatten(const Draft& draft, const TreeItems& items, std::span<const Box> boxes);
+Bvh flatten(const Draft& draft, const TreeItems& items, std::span<const Box> boxes, unsigned threads);
 
 /// Checks the items, picks the builder and flattens: one level of a scene's trees.
 Bvh buildTree(const TreeItems& items, uint levels, BvhBuild build, unsigned threads);

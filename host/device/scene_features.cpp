@@ -37,7 +37,7 @@ uint32_t featuresOf(const Frame& frame)
            featureIf(frame.integrator != INTEGRATOR_PHONG, FEATURE_PATHS) |
            featureIf(frame.samplerKind == SAMPLER_INDEPENDENT, FEATURE_INDEPENDENT) |
            featureIf(frame.samplerKind != SAMPLER_INDEPENDENT, FEATURE_SOBOL) |
-           featureIf(frame.probeChance > 0, FEATURE_PROBE_LIGHT) | featuresOf(frame.probe) |
+           featureIf(frame.probeMean > 0, FEATURE_PROBE_LIGHT) | featuresOf(frame.probe) |
            featuresOf(frame.background);
 }
 

@@ -1,6 +1,7 @@
 #include "render/light_table.h"
 
 #include "bvh/box.h"
+#include "render/light_clusters.h"
 #include "render/shape_lights.h"
 #include "scene/alias_table.h"
 #include "scene/probe_weights.h"
@@ -8,14 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sahl {
 
 namespace {
-
-// The probe's power rests on the size of the scene, which says little of how much a surface gets
-// from it: neither the probe nor the lights are left with less than this chance.
-constexpr double SMALLEST_SHARE = 0.25;
 
 double luminance(const vec3& c)
 {
@@ -69,8 +67,29 @@ double sumOf(const std::vector<double>& weights)
     return sum;
 }
 
-/// Adds shapes that shine to the lights and their weights. Returns whether they are chosen among.
-bool addShapes(const DeviceScene& scene, LightTable& table, std::vector<double>& weights)
+/// Lights that are chosen by an alias table.
+struct Chosen {
+    std::vector<double> weights;
+    std::vector<FarLight> far;
+    double everywhere = 0;  ///< irradiance by directional lights [W m^-2]
+};
+
+/// Adds lights of the scene file that are too many to be chosen one by one.
+void addLights(const DeviceScene& scene, Chosen& chosen)
+{
+    const double radius2 = squaredRadius(scene);
+    for (const Light& light : scene.lights) {
+        const double weight = weightOf(light, radius2);
+        chosen.weights.push_back(weight);
+        if (light.type == LIGHT_DIRECTIONAL)
+            chosen.everywhere += luminance(light.intensity);
+        else
+            chosen.far.push_back({glm::dvec3(light.position), 0, weight / 2});
+    }
+}
+
+/// Adds shapes that shine. Returns whether they are chosen among.
+bool addShapes(const DeviceScene& scene, LightTable& table, Chosen& chosen)
 {
     const std::optional<std::vector<ShapeLight>> shapes = shapeLightsOf(scene, MAX_SHAPE_LIGHTS);
     if (!shapes) {
@@ -86,33 +105,28 @@ bool addShapes(const DeviceScene& scene, LightTable& table, std::vector<double>&
         light.slot = shape.slot;
         light.instance = shape.instance;
         table.lights.push_back(light);
-        weights.push_back(shape.weight);
+        chosen.weights.push_back(shape.weight);
+        chosen.far.push_back(shape.far);
     }
     return true;
 }
 
-/// Chances of the lights, `share` for all of them together.
-void chooseByWeight(const std::vector<double>& weights, double share, LightTable& table)
+/// Makes the alias table and the clusters.
+void chooseByWeight(Chosen& chosen, LightTable& table)
 {
-    const double sum = sumOf(weights);
-    if (!(sum > 0)) return;
-    const std::vector<uint64_t> masses = massesOf(weights);
+    if (!(sumOf(chosen.weights) > 0)) return;
+    const std::vector<uint64_t> masses = massesOf(chosen.weights);
     const double total = static_cast<double>(masses.size()) * 0x1p32;
     for (size_t i = 0; i < masses.size(); i++) {
-        table.lights[i].chance = static_cast<float>(share * static_cast<double>(masses[i]) / total);
+        table.lights[table.singleCount + i].chance =
+            static_cast<float>(static_cast<double>(masses[i]) / total);
     }
     table.entries = makeAliasTable(masses);
     table.choiceCount = static_cast<uint>(masses.size());
-}
-
-/// What the probe's chance is, given its power and the lights' in the same unit: a multiple of
-/// 2^-24, as are the random numbers that it is compared with.
-double probeShare(double probe, double lights)
-{
-    if (!(probe > 0)) return 0;
-    if (!(lights > 0)) return 1;
-    const double share = std::clamp(probe / (probe + lights), SMALLEST_SHARE, 1 - SMALLEST_SHARE);
-    return std::floor(share * 0x1p24 + 0.5) * 0x1p-24;
+    const std::vector<Light> clusters =
+        clustersOf(std::move(chosen.far), chosen.everywhere, MAX_LIGHT_CLUSTERS);
+    table.clusterCount = static_cast<uint>(clusters.size());
+    table.lights.insert(table.lights.end(), clusters.begin(), clusters.end());
 }
 
 /// Powers of the probe's texels; none where the probe is the same everywhere: scattered rays find
@@ -124,33 +138,38 @@ std::vector<double> powersOfProbe(const DeviceScene& scene)
     return texelPowers(probe, scene.probeTexels);
 }
 
+/// Adds the probe, of which the texels' powers are given.
+void addProbe(const DeviceScene& scene, const std::vector<double>& powers, LightTable& table)
+{
+    const Probe& probe = scene.frame.probe;
+    const std::vector<AliasEntry> entries = makeAliasTable(table.texelMasses);
+    table.entries.insert(table.entries.end(), entries.begin(), entries.end());
+    constexpr double SPHERE = 4 * std::numbers::pi;
+    table.probeMean = static_cast<float>(sumOf(powers) / SPHERE);
+    table.probeSlope = vec3(powerMoment(probe, powers) * (3 / SPHERE));
+}
+
 }  // namespace
 
 LightTable makeLightTable(const DeviceScene& scene)
 {
-    const double radius2 = squaredRadius(scene);
     const bool bsdfOnly = scene.frame.lightSampling == LIGHTS_BSDF_ONLY;
     LightTable table;
-    std::vector<double> weights;
-    for (const Light& light : scene.lights) {
-        table.lights.push_back(light);
-        weights.push_back(weightOf(light, radius2));
-    }
-    const bool shapesAreSampled = !bsdfOnly && addShapes(scene, table, weights);
+    Chosen chosen;
+    table.lights.assign(scene.lights.begin(), scene.lights.end());
+    if (scene.lights.size() <= MAX_SINGLE_LIGHTS)
+        table.singleCount = static_cast<uint>(scene.lights.size());
+    else
+        addLights(scene, chosen);
+    const bool shapesAreSampled = !bsdfOnly && addShapes(scene, table, chosen);
+    chooseByWeight(chosen, table);
+    if (shapesAreSampled && table.choiceCount > 0)
+        table.lightPerPower = static_cast<float>(1 / sumOf(chosen.weights));
 
     const std::vector<double> powers = powersOfProbe(scene);
-    const bool probeShines = sumOf(powers) > 0;
-    if (probeShines) table.texelMasses = massesOf(powers);
-    // Radiant power through the scene's cross section, over 2 pi like the lights'
-    const double power = probeShines && !bsdfOnly ? sumOf(powers) * radius2 / 2 : 0;
-    const double share = probeShare(power, sumOf(weights));
-    chooseByWeight(weights, 1 - share, table);
-    if (shapesAreSampled && table.choiceCount > 0)
-        table.lightPerPower = static_cast<float>((1 - share) / sumOf(weights));
-    if (share > 0) {
-        table.probeChance = static_cast<float>(share);
-        const std::vector<AliasEntry> entries = makeAliasTable(table.texelMasses);
-        table.entries.insert(table.entries.end(), entries.begin(), entries.end());
+    if (sumOf(powers) > 0) {
+        table.texelMasses = massesOf(powers);
+        if (!bsdfOnly) addProbe(scene, powers, table);
     }
     return table;
 }

@@ -7,19 +7,23 @@
 
 namespace sahl {
 
-/// The lights of a scene and the chances with which light sampling takes them. Also that of the
-/// probe, whose texels are chosen by a table of their own.
+/// The lights of a scene, and by what light sampling chooses among them. Also the probe, whose texels
+/// are chosen by a table of their own.
 struct LightTable {
     std::vector<Light> lights;  ///< of the scene file, then the shapes that shine, in an order that
-                                ///< does not depend on the tree; all of them are chosen among
+                                ///< does not depend on the tree, then clusters
     std::vector<AliasEntry>
-        entries;  ///< of the lights, if any of them shines, then of the probe's texels
+        entries;  ///< of the lights after the single ones, if any of them shines, then of the
+                  ///< probe's texels
     std::vector<uint64_t>
         texelMasses;          ///< of the probe, see writeTexelWeights(); empty: it is not sampled
-    uint choiceCount = 0;     ///< lights that entries are for
+    uint singleCount = 0;     ///< lights that are chosen one by one: the first ones
+    uint choiceCount = 0;     ///< lights that entries are for: the next ones
+    uint clusterCount = 0;    ///< these, gathered
     float lightPerPower = 0;  ///< of shapes: chance to be chosen per luminance and area [sr W^-1];
                               ///< 0: none of them is sampled
-    float probeChance = 0;  ///< that the probe is taken, and no light
+    float probeMean = 0;  ///< luminance, over all directions; 0: the probe is not sampled
+    vec3 probeSlope{0};   ///< the same as far as it is linear in the direction: mean + slope . d
 };
 
 /// More shapes that shine are not sampled: paths may still run into them.

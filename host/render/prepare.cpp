@@ -34,7 +34,10 @@ DeviceScene PreparedScene::deviceScene() const
     view.aliasEntries = lightTable.entries;
     view.frame.choiceCount = lightTable.choiceCount;
     view.frame.lightPerPower = lightTable.lightPerPower;
-    view.frame.probeChance = lightTable.probeChance;
+    view.frame.singleCount = lightTable.singleCount;
+    view.frame.clusterCount = lightTable.clusterCount;
+    view.frame.probeSlope = lightTable.probeSlope;
+    view.frame.probeMean = lightTable.probeMean;
     view.treeDepth = bvh.statistics.depth;
     view.wide = {wide.nodes,  wide.instances, wide.rootRef,
                  wide.gridAt, wide.gridScale, wide.worstPending};

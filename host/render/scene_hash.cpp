@@ -36,8 +36,10 @@ Frame withoutSettings(Frame frame)
     frame.integrator = frame.shading = 0;
     frame.samplerKind = frame.rouletteDepth = frame.lightSampling = 0;
     frame.clampIndirect = 0;
-    frame.choiceCount = 0;  // what follows from the rest, by how lights are sampled
-    frame.lightPerPower = frame.probeChance = 0;
+    // What follows from the rest, by how lights are sampled
+    frame.singleCount = frame.choiceCount = frame.clusterCount = 0;
+    frame.lightPerPower = frame.probeMean = 0;
+    frame.probeSlope = vec3(0);
     frame.rootRef = 0;
     return frame;
 }

@@ -48,6 +48,7 @@ std::vector<uint> slotsBelow(const DeviceScene& scene, uint root)
 struct Place {
     glm::dmat3 linear = glm::dmat3(1.0);
     double determinant = 1;
+    glm::dvec3 translation{0.0};
     double inverseStretch =
         1;  ///< square root of the mean square by which the way back stretches directions
 };
@@ -57,6 +58,7 @@ Place placeOf(const ObjectInstance& instance)
     Place place;
     const glm::dmat3 rows(instance.toWorld0, instance.toWorld1, instance.toWorld2);
     place.linear = glm::transpose(rows);
+    place.translation = glm::dvec3(instance.translation);
     place.determinant = std::abs(glm::determinant(rows));
     const glm::dvec3 a(instance.toObject0), b(instance.toObject1), c(instance.toObject2);
     place.inverseStretch = std::sqrt((glm::dot(a, a) + glm::dot(b, b) + glm::dot(c, c)) / 3);
@@ -75,6 +77,29 @@ double areaOf(const Primitive& shape, const Place& place)
     const glm::dvec3 v = place.linear * (glm::dvec3(shape.p2) - glm::dvec3(shape.p0));
     const glm::dvec3 n = glm::cross(u, v);
     return std::sqrt(glm::dot(n, n)) / 2;
+}
+
+/// Of a shape of that weight. What it shows of its area is, on average over all directions, a
+/// quarter of a sphere's and half of a triangle's.
+FarLight farLightOf(const Primitive& shape, const Place& place, double weight)
+{
+    FarLight far;
+    if (shape.shape == SHAPE_SPHERE) {
+        far.centre = place.linear * glm::dvec3(shape.p0) + place.translation;
+        far.squaredRadius = double{shape.p1.x} * double{shape.p1.x} *
+                            std::cbrt(place.determinant * place.determinant);
+        far.strength = weight / 4;
+        return far;
+    }
+    const glm::dvec3 p0(shape.p0), p1(shape.p1), p2(shape.p2);
+    const glm::dvec3 middle = (p0 + p1 + p2) / 3.0;
+    for (const glm::dvec3& p : {p0, p1, p2}) {
+        const glm::dvec3 away = place.linear * (p - middle);
+        far.squaredRadius += glm::dot(away, away) / 12;
+    }
+    far.centre = place.linear * middle + place.translation;
+    far.strength = weight / 2;
+    return far;
 }
 
 /// Collects the shapes that shine, up to a limit.
@@ -102,7 +127,8 @@ public:
             const uint painted = material != NO_MATERIAL ? material : shape.material;
             const double weight = luminances_[painted] * areaOf(shape, place);
             const uint type = shape.shape == SHAPE_SPHERE ? LIGHT_SPHERE : LIGHT_TRIANGLE;
-            if (weight > 0) lights.push_back({type, slot, instance, weight});
+            if (!(weight > 0)) continue;
+            lights.push_back({type, slot, instance, weight, farLightOf(shape, place, weight)});
         }
     }
 

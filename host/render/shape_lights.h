@@ -1,7 +1,7 @@
 // Which shapes of a scene shine: those that light sampling may choose.
 #pragma once
 
-#include "device/device.h"
+#include "render/light_clusters.h"
 
 #include <optional>
 #include <vector>
@@ -15,6 +15,7 @@ struct ShapeLight {
     uint instance = NO_INSTANCE;  ///< that it is in
     double weight = 0;  ///< luminance of its emission times its area in the world [W sr^-1]; of an
                         ///< ellipsoid as pdfSphereSurface() in shape_lights.glsl has it
+    FarLight far;       ///< what it is from afar, seen at a mean angle
 };
 
 /// All of them, in the order in which the files gave them: the world's, then those of each

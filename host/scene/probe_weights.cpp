@@ -66,6 +66,21 @@ double angularFactor(const Probe& probe, uint32_t x, uint32_t y)
     return sum / (POINTS * POINTS);
 }
 
+/// Direction that is looked up at (u, v), in the probe's own space, as in probe_sampling.glsl.
+/// Nothing beyond the rim of an angular map.
+glm::dvec3 directionOf(const Probe& probe, double u, double v)
+{
+    if (probe.mapping == PROBE_LATLONG) {
+        const double sine = sinDeg(180 * v);
+        return {-sine * sinDeg(360 * u), cosDeg(180 * v), sine * cosDeg(360 * u)};
+    }
+    const double right = u - 0.5, up = 0.5 - v;
+    const double r = std::sqrt(right * right + up * up);
+    if (r >= 0.5) return glm::dvec3(0.0);
+    const double scale = r > 1e-9 ? sinDeg(360 * r) / r : 2 * PI;
+    return {right * scale, up * scale, -cosDeg(360 * r)};
+}
+
 float weightOf(uint64_t mass)
 {
     return static_cast<float>(static_cast<double>(mass) * 0x1p-32);
@@ -94,6 +109,19 @@ std::vector<double> texelPowers(const Probe& probe, std::span<const vec4> texels
         }
     }
     return powers;
+}
+
+glm::dvec3 powerMoment(const Probe& probe, std::span<const double> powers)
+{
+    glm::dvec3 sum(0.0);
+    for (uint32_t y = 0; y < probe.height; y++) {
+        for (uint32_t x = 0; x < probe.width; x++) {
+            const double u = (x + 0.5) / probe.width, v = (y + 0.5) / probe.height;
+            sum += directionOf(probe, u, v) * powers[size_t{y} * probe.width + x];
+        }
+    }
+    const glm::dmat3 axes(probe.axisX, probe.axisY, probe.axisZ);
+    return axes * sum;
 }
 
 void writeTexelWeights(const Probe& probe, std::span<const uint64_t> masses, std::span<vec4> texels)

@@ -18,6 +18,9 @@ bool isConstant(const Probe& probe, std::span<const vec4> texels);
 ///   texels  of all probes
 std::vector<double> texelPowers(const Probe& probe, std::span<const vec4> texels);
 
+/// Sum of the texels' powers times the directions that they are seen in, in the world.
+glm::dvec3 powerMoment(const Probe& probe, std::span<const double> powers);
+
 /// Writes into the fourth component of each texel of the probe by how much it is likelier to be
 /// chosen than it would be by chance alone: looked up like the colours, these are the density with
 /// which points of the picture (of area 1) are sampled.

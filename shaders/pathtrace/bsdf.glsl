@@ -11,6 +11,22 @@ float diffuseShare(Material material)
     return material.type == MATERIAL_REPORT ? material.diffuseWeight : 0.0f;
 }
 
+/// Whether all lobes of a material are delta lobes: no light sample can count there.
+bool isSpecular(Material material)
+{
+    uint type = material.type;
+    if (HAS_GLOSSY) type = typeActedAs(material);
+    if (type == MATERIAL_REPORT) return !(material.diffuseWeight > 0.0f);
+    return (type >= MATERIAL_MIRROR && type <= MATERIAL_CONDUCTOR) || type == MATERIAL_THIN_DIELECTRIC;
+}
+
+/// Whether a material has lobes for light from behind it, other than delta lobes.
+bool scattersThrough(Material material)
+{
+    if (material.type == MATERIAL_METALLIC_ROUGHNESS) return material.transmission > 0.0f;
+    return material.type == MATERIAL_ROUGH_DIELECTRIC;
+}
+
 /// All lobes but delta lobes, as mirror directions have no finite value. Lambert reflects light that
 /// arrives on the viewer's side of the geometric surface.
 ///   wo, wi  unit directions to the viewer and to the light

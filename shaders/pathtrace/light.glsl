@@ -61,13 +61,15 @@ LightSample withRadiance(vec3 wi, float distance, vec3 radiance, float pdf)
     return ls;
 }
 
-LightSample sampleShapeLight(Light light, SurfaceInteraction isect, float u1, float u2)
+/// A point on a shape that shines.
+///   chance  of the alias table
+LightSample sampleShapeLight(float chance, Light light, SurfaceInteraction isect, float u1, float u2)
 {
     Primitive shape = loadPrimitive(light.slot);
     uint ofInstance = NO_MATERIAL;
     if (HAS_INSTANCES && light.instance != NO_INSTANCE) ofInstance = loadInstance(light.instance).material;
     Material material = loadMaterial(ofInstance != NO_MATERIAL ? ofInstance : shape.material);
-    float perArea = lightPerArea(material);
+    float perArea = lightPerArea(material) * chance;
     ShapeSample ss;
     if (HAS_SPHERES && light.type == LIGHT_SPHERE) {
         ss = sampleSphereLight(perArea, shape, light.instance, isect, u1, u2);
@@ -77,7 +79,7 @@ LightSample sampleShapeLight(Light light, SurfaceInteraction isect, float u1, fl
     return withRadiance(ss.wi, ss.distance, emittedAt(material, ss.u, ss.v), ss.pdf);
 }
 
-LightSample sampleProbeLight(uint bits, uint finer, float u1, float u2)
+LightSample sampleProbeLight(float chance, uint bits, uint finer, float u1, float u2)
 {
     vec3 d;
     if (!sampleProbe(bits, finer, u1, u2, d)) return noLight();
@@ -85,24 +87,33 @@ LightSample sampleProbeLight(uint bits, uint finer, float u1, float u2)
     vec3 dir = unit(fromProbe(frame.probe, d));
     vec3 seen = toProbe(frame.probe, dir);
     vec4 texel = lookUpProbe(frame.probe, seen);
-    return withRadiance(dir, RAY_INFINITY, vec3(texel), pdfProbe(seen, texel.w));
+    return withRadiance(dir, RAY_INFINITY, vec3(texel), pdfProbe(chance, seen, texel.w));
 }
 
-/// Chooses the probe or one of the lights, by their power, and a direction to it.
-///   u     uniform in [0,1): probe or lights
-///   bits  uniform: which one, and where on it
-LightSample sampleLight(SurfaceInteraction isect, float u, uvec4 bits)
+/// Samples a direction to what was chosen.
+///   bits  uniform: which light of the alias table or texel of the probe, and where on it
+LightSample sampleLight(SurfaceInteraction isect, LightChoice choice, uvec4 bits)
 {
+    if (choice.light == TAKE_NOTHING) return noLight();
     float u1 = unitFloat(bits.y);
     float u2 = unitFloat(bits.z);
     uint finer = ((bits.y & 255u) | ((bits.z & 255u) << 8u)) | ((bits.w & 255u) << 16u);
-    if (HAS_PROBE_LIGHT && u < frame.probeChance) return sampleProbeLight(bits.x, finer, u1, u2);
-    if ((!HAS_FAR_LIGHTS && !HAS_SHAPE_LIGHTS) || frame.choiceCount == 0u) return noLight();
-    Light light = loadLight(chooseByAlias(0u, frame.choiceCount, bits.x, finer));
-    if (HAS_SHAPE_LIGHTS && (!HAS_FAR_LIGHTS || light.type >= LIGHT_TRIANGLE))
-        return sampleShapeLight(light, isect, u1, u2);
+    if (HAS_PROBE_LIGHT && choice.light == TAKE_PROBE) {
+        return sampleProbeLight(choice.chance, bits.x, finer, u1, u2);
+    }
+    if (!HAS_FAR_LIGHTS && !HAS_SHAPE_LIGHTS) return noLight();
+    uint index = choice.light;
+    float chance = choice.chance;
+    if (choice.light == TAKE_TABLE) {
+        index = frame.singleCount + chooseByAlias(0u, frame.choiceCount, bits.x, finer);
+    }
+    Light light = loadLight(index);
+    if (HAS_SHAPE_LIGHTS && (!HAS_FAR_LIGHTS || light.type >= LIGHT_TRIANGLE)) {
+        return sampleShapeLight(chance, light, isect, u1, u2);
+    }
+    if (choice.light == TAKE_TABLE) chance = chance * light.chance;
     LightSample ls = illuminate(light, isect.p);
-    ls.Li = flushed3(ls.Li * quotient(1.0f, light.chance));
+    ls.Li = flushed3(ls.Li * quotient(1.0f, chance));
     return ls;
 }
 

@@ -1,5 +1,18 @@
 // One of many by its weight in constant time: reading of alias tables (host/scene/alias_table.h).
 
+// Where a vertex looks for light, and how likely that was.
+struct LightChoice
+{
+    uint light;         // index in `lights`; or TAKE_PROBE, TAKE_TABLE, TAKE_NOTHING
+    float chance;       // of what was taken
+    float probeChance;  // that of the probe
+    float tableChance;  // that of the alias table
+};
+
+CONST uint TAKE_PROBE = 0xffffffffu;
+CONST uint TAKE_TABLE = 0xfffffffeu;    // one of its lights
+CONST uint TAKE_NOTHING = 0xfffffffdu;  // nothing would arrive
+
 /// The product of two 32-bit numbers, as 64 bits.
 void wideProduct(uint a, uint b, OUT(uint) high, OUT(uint) low)
 {

@@ -34,8 +34,8 @@ PathState beginPath(uint x, uint y, uint sampleIndex)
     path.mediumEta = 1.0f;
     path.pdf = 0.0f;
     path.etaScale = 1.0f;
-    path.unused0 = 0u;
-    path.unused1 = 0u;
+    path.probeChance = 0.0f;
+    path.tableChance = 0.0f;
     path.hit = beginTraversal(RAY_INFINITY);
     return path;
 }
@@ -58,9 +58,13 @@ bool sampleDirectLight(Material material, SurfaceInteraction isect, uint dimensi
                        INOUT(PathState) path)
 {
     if (!HAS_FAR_LIGHTS && !HAS_SHAPE_LIGHTS && !HAS_PROBE_LIGHT) return false;
-    if (frame.choiceCount == 0u && !(frame.probeChance > 0.0f)) return false;
+    if (!anyLightIsSampled() || isSpecular(material)) return false;
+    float carried = maxComponent(path.beta) * path.etaScale;
+    LightChoice choice = chooseLight(isect, scattersThrough(material), carried, u);
+    path.probeChance = choice.probeChance;
+    path.tableChance = choice.tableChance;
     uvec4 bits = randomBits4(path.pixel, path.sampleIndex, dimension + DIMENSION_LIGHT);
-    LightSample ls = sampleLight(isect, u, bits);
+    LightSample ls = sampleLight(isect, choice, bits);
     if (!(ls.distance > 0.0f)) return false;
     BsdfValue bsdf = evalBsdf(material, isect, -path.dir, ls.wi);
     float weight = weightOfLightSample(ls.pdf, bsdf.pdf);
@@ -95,7 +99,7 @@ void seeEnvironment(INOUT(PathState) path)
     if (path.depth == 0u) probe = frame.background;
     vec3 d = toProbe(probe, path.dir);
     vec4 texel = lookUpProbe(probe, d);
-    float weight = weightOfScattering(path.pdf, pdfProbe(d, texel.w));
+    float weight = weightOfScattering(path.pdf, pdfProbe(path.probeChance, d, texel.w));
     gather(path.beta * vec3(texel) * weight, path.depth, path);
     path.phase = PHASE_ENDED;
 }
@@ -106,7 +110,8 @@ void seeEmission(SurfaceInteraction isect, Material material, Traversal hit, INO
     if (!(maxComponent(material.emission) > 0.0f)) return;
     float weight = 1.0f;
     if (HAS_SHAPE_LIGHTS && path.pdf > 0.0f) {
-        weight = weightOfScattering(path.pdf, pdfShapeLight(hit, isect, path.org, path.dir));
+        float pdfLight = pdfShapeLight(path.tableChance, hit, isect, path.org, path.dir);
+        weight = weightOfScattering(path.pdf, pdfLight);
     }
     gather(path.beta * material.emission * weight, path.depth, path);
 }

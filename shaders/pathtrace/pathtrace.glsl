@@ -51,6 +51,7 @@ CONST float RAY_INFINITY = 3.0e38f;
 #include "pathtrace/probe_sampling.glsl"
 #include "pathtrace/shape_lights.glsl"
 #include "pathtrace/light.glsl"
+#include "pathtrace/light_estimate.glsl"
 #include "pathtrace/phong.glsl"
 #include "pathtrace/roulette.glsl"
 #include "pathtrace/gather.glsl"

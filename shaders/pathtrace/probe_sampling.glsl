@@ -48,12 +48,13 @@ float probeSolidAngle(Probe probe, vec3 d)
 }
 
 /// Density with which light sampling takes a direction [1/sr].
+///   chance  of the probe
 ///   d       unit direction in the probe's own space
 ///   weight  of the texels there, looked up like their colour
-float pdfProbe(vec3 d, float weight)
+float pdfProbe(float chance, vec3 d, float weight)
 {
-    if (!HAS_PROBE_LIGHT || !(frame.probeChance > 0.0f)) return 0.0f;
-    return flushed(frame.probeChance * quotient(weight, probeSolidAngle(frame.probe, d)));
+    if (!HAS_PROBE_LIGHT || !(chance > 0.0f)) return 0.0f;
+    return flushed(chance * quotient(weight, probeSolidAngle(frame.probe, d)));
 }
 
 /// Place of a point about the middle of texel i, in a row of texels: anywhere within the texel, or

@@ -102,7 +102,7 @@ float pdfSphereLight(float perArea, Primitive sphere, uint instance, vec3 org, v
     return pdfSphereSurface(perArea, sphere, objectRayOf(instance, org, dir), t);
 }
 
-/// Density per area with which shapes of a material are sampled [m^-2].
+/// Density per area with which shapes of a material are sampled, where the alias table is [m^-2].
 ///   material  as it is stored
 float lightPerArea(Material material)
 {
@@ -114,9 +114,10 @@ float lightPerArea(Material material)
 }
 
 /// Density with which light sampling takes the direction of a ray that met a shape [1/sr].
-float pdfShapeLight(Traversal hit, SurfaceInteraction isect, vec3 org, vec3 dir)
+///   chance  of the alias table
+float pdfShapeLight(float chance, Traversal hit, SurfaceInteraction isect, vec3 org, vec3 dir)
 {
-    float perArea = lightPerArea(loadMaterial(isect.material));
+    float perArea = lightPerArea(loadMaterial(isect.material)) * chance;
     if (!(perArea > 0.0f)) return 0.0f;
     Primitive shape = loadPrimitive(hit.slot);
     if (HAS_SPHERES && shape.shape == SHAPE_SPHERE) {

@@ -100,8 +100,8 @@ struct PathState
     float mediumEta;   // index of refraction where the path is, by the report's rule
     float pdf;         // density with which dir was chosen at the last vertex [1/sr]; 0: not by density
     float etaScale;    // square of the index of refraction that beta's radiance is scaled by
-    uint unused0;
-    uint unused1;
+    float probeChance; // that the last vertex looked for the probe, and not for a light
+    float tableChance; // that it looked for one of the lights of the alias table
     Traversal hit;     // INTEGRATOR_PHONG: what the camera ray met, while shadow rays walk
 };
 GPU_STRUCT_SIZE(PathState, 176);

@@ -176,6 +176,14 @@ SHARED_CONST uint LIGHT_SPOT = 1u;
 SHARED_CONST uint LIGHT_DIRECTIONAL = 2u;
 SHARED_CONST uint LIGHT_TRIANGLE = 3u;  // that shines: from here on `slot` and `instance` say all
 SHARED_CONST uint LIGHT_SPHERE = 4u;
+SHARED_CONST uint LIGHT_CLUSTER = 5u;   // many lights seen as one, to estimate what arrives of them:
+                                        // position: their middle; intensity.x, of those that are somewhere:
+                                        // irradiance at a distance of 1 [W]; cosOuter: mean of their
+                                        // squared distances from the middle [m^2]; cosInner: irradiance
+                                        // of the directional ones
+
+SHARED_CONST uint MAX_SINGLE_LIGHTS = 32u;  // point, spot and directional lights that are chosen one by one
+SHARED_CONST uint MAX_LIGHT_CLUSTERS = 8u;
 
 struct Light
 {
@@ -186,7 +194,7 @@ struct Light
     float cosOuter;   // spot: cosine of the angle beyond which there is no light
     vec3 direction;   // spot and directional: unit, the way the light goes
     float cosInner;   // spot: cosine of the angle within which the intensity is full
-    float chance;     // probability that the choice of a light takes this one
+    float chance;     // probability that this one is taken of those that the alias table is for
     uint slot;        // of a shape that shines: its index in `primitives`
     uint instance;    // and the instance that it is in, or NO_INSTANCE
     uint unused0;
@@ -323,10 +331,14 @@ struct Frame
     uint rouletteDepth;  // scatterings after which paths end by chance, or NO_ROULETTE
     float clampIndirect; // largest luminance of light scattered more than once, at a time; 0: any
     uint lightSampling;  // one of LIGHTS_*
-    uint choiceCount;    // lights that the choice of a light is among
-    float lightPerPower; // their chance together over the sum of their weights; 0: shapes are left to chance
-    float probeChance;   // probability that the choice takes the probe
-    uint unused0;
+    // `lights` are the scene's lights, the shapes that shine, clusters. A vertex chooses by what it would
+    // receive among the probe, the single lights and all that the alias table is for (light_estimate.glsl).
+    uint singleCount;    // lights that are chosen one by one: the first ones
+    uint choiceCount;    // lights that the alias table is for: those that follow
+    uint clusterCount;   // these as clusters, which follow them
+    float lightPerPower; // 1 over the sum of the weights of the alias table; 0: shapes are left to chance
+    vec3 probeSlope;     // the luminance of the probe as far as it is linear in the direction: mean + slope . d
+    float probeMean;     // 0: the probe is left to chance
     vec3 gridAt;         // of the world's wide tree
     uint gridScale;
     uint lightsAt;       // where parts of `tables` begin [16 bytes]; the device's own affair
@@ -334,12 +346,13 @@ struct Frame
     uint texturesAt;
     uint textureTexelsAt;
 };
-GPU_STRUCT_SIZE(Frame, 336);
+GPU_STRUCT_SIZE(Frame, 352);
 GPU_FIELD(Frame, probe, 96);
 GPU_FIELD(Frame, rootRef, 240);
 GPU_FIELD(Frame, shading, 268);
 GPU_FIELD(Frame, lightSampling, 284);
-GPU_FIELD(Frame, textureTexelsAt, 332);
+GPU_FIELD(Frame, probeMean, 316);
+GPU_FIELD(Frame, textureTexelsAt, 348);
 
 SHARED_END
 

@@ -71,7 +71,8 @@ void main()
     put(f.rootRef); put(f.lightCount); put(f.integrator); put(f.jitter);
     put(f.ambient); put(f.shading);
     put(f.samplerKind); put(f.rouletteDepth); put(f.clampIndirect); put(f.lightSampling);
-    put(f.choiceCount); put(f.lightPerPower); put(f.probeChance); put(f.unused0);
+    put(f.singleCount); put(f.choiceCount); put(f.clusterCount); put(f.lightPerPower);
+    put(f.probeSlope); put(f.probeMean);
     put(f.gridAt); put(f.gridScale);
     put(f.lightsAt); put(f.aliasAt); put(f.texturesAt); put(f.textureTexelsAt);
     PixelBlock b = blocks[1];
@@ -81,7 +82,7 @@ void main()
     PathState p = paths[1].path;
     put(p.org); put(p.phase); put(p.dir); put(p.depth); put(p.beta); put(p.pixel); put(p.L); put(p.sampleIndex);
     put(p.shadowOrg); put(p.shadowTMax); put(p.shadowDir); put(p.digest); put(p.Ld); put(p.mediumEta);
-    put(p.pdf); put(p.etaScale); put(p.unused0); put(p.unused1);
+    put(p.pdf); put(p.etaScale); put(p.probeChance); put(p.tableChance);
     put(p.hit);
     put(paths[1].traversal);
     put(paths[1].indirectRays); put(paths[1].shadowRays); put(paths[1].boxTests); put(paths[1].primitiveTests);

@@ -83,6 +83,15 @@ TEST_F(Pictures, doNotDependOnThreadsTilesOrTrees)
     EXPECT_EQ(textOf(folder / "a.pfm"), textOf(folder / "c.pfm"));
     ASSERT_EQ(render({"-o", "d.pfm", "--seed", "1"}).exitCode, 0);
     EXPECT_NE(textOf(folder / "a.pfm"), textOf(folder / "d.pfm"));
+    ASSERT_EQ(render({"-o", "e.pfm", "--bvh-quality", "high", "--stats", "e.json"}).exitCode, 0);
+    EXPECT_EQ(textOf(folder / "a.pfm"), textOf(folder / "e.pfm"));
+    EXPECT_EQ(nlohmann::json::parse(textOf(folder / "e.json"))["tree"]["build"], "high");
+}
+
+TEST_F(Pictures, qualityOfTrees_isChosenByOneOption)
+{
+    expectRefused(render({"--bvh-quality", "best"}), 2, "--bvh-quality");
+    expectRefused(render({"--bvh-quality", "high", "--bvh-build", "sweep"}), 2, "--bvh-quality");
 }
 
 TEST_F(Pictures, sameCommand_givesTheSameFile)

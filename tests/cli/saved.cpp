@@ -96,10 +96,17 @@ TEST_F(SavedFiles, savedScenes_areVerifiedAndSavedAgain)
     EXPECT_EQ(run({"bvh", "a.json"}).exitCode, 0);
 }
 
+TEST_F(SavedFiles, savedScenes_knowTheQualityOfTheirTrees)
+{
+    ASSERT_EQ(run({"bvh", "ball.json", "--bvh-quality", "high", "-o", "ball.sahl"}).exitCode, 0);
+    EXPECT_HAS(run({"bvh", "ball.sahl"}).out, "built by reinsertion");
+}
+
 TEST_F(SavedFiles, savedScenes_refuseOptionsThatNeedTheOriginal)
 {
     ASSERT_EQ(run({"bvh", "ball.json", "-o", "ball.sahl"}).exitCode, 0);
     for (const Arguments& option : {Arguments{"--bvh-build", "sweep"},
+                                    {"--bvh-quality", "high"},
                                     {"--smooth-normals"},
                                     {"--probe-mapping", "angular"}}) {
         Arguments arguments = {"render", "ball.sahl", "--device", "cpu", "-o", "a.pfm"};

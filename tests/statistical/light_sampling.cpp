@@ -37,12 +37,14 @@ struct LightKernel : Kernel<> {
 
     LightSample sampleAt(const SurfaceInteraction& isect, uint i)
     {
-        return sampleLight(isect, random4(0, i, 0).x, randomBits4(1, i, 0));
+        const LightChoice choice = chooseLight(isect, true, 1, random4(0, i, 0).x);
+        return sampleLight(isect, choice, randomBits4(1, i, 0));
     }
 
     /// Density of light sampling for a direction, as a path finds it that goes there.
     double pdfAt(const SurfaceInteraction& isect, vec3 wi)
     {
+        const LightChoice choice = chooseLight(isect, true, 1, 0);
         const vec3 org = offsetOrigin(isect, wi);
         Traversal hit = beginTraversal(RAY_INFINITY);
         stepsLeft = 0xffffffffu;
@@ -50,10 +52,10 @@ struct LightKernel : Kernel<> {
         traverse(org, wi, false, hit);
         if (hit.slot == NO_HIT) {
             const vec3 d = toProbe(frame.probe, wi);
-            return pdfProbe(d, lookUpProbe(frame.probe, d).w);
+            return pdfProbe(choice.probeChance, d, lookUpProbe(frame.probe, d).w);
         }
         const SurfaceInteraction at = interactionAt(hit, org, wi);
-        return pdfShapeLight(hit, at, org, wi);
+        return pdfShapeLight(choice.tableChance, hit, at, org, wi);
     }
 };
 
@@ -326,6 +328,80 @@ TEST(Lights, areChosenByTheirPower)
     addMaterialOf(scene, MATERIAL_LAMBERT, vec3(0.5f)).emission = vec3(20, 1, 4);
     addSphere(scene, {-2, 1, 0}, 0.25f);
     expectSampledByDensity(scene, {0, 0, 0}, {{0, 1, 0}, std::numbers::pi, 64, 128, 8});
+}
+
+/// Lamps, a probe and single lights together, as a surface on the ground finds them.
+Scene mixedScene()
+{
+    Scene scene = sphereScene({3, 0.5f, 0}, 0.5f);
+    addMaterialOf(scene, MATERIAL_LAMBERT, vec3(0.5f)).emission = vec3(20, 1, 4);
+    addSphere(scene, {-2, 1, 0}, 0.25f);
+    scene.probe = addHalves(scene, vec3(0.2f), vec3(0.5f));
+    addLight(scene, LIGHT_POINT, vec3(4)).position = {0, 2, 1};
+    addLight(scene, LIGHT_POINT, vec3(9)).position = {0, -2, 1};  // below the ground
+    addLight(scene, LIGHT_DIRECTIONAL, vec3(0.5f)).direction = {0, -1, 0};
+    return scene;
+}
+
+/// How often each of many choices is made, of which the first two are probe and table.
+std::vector<double> countsOfChoices(LightKernel& kernel, const SurfaceInteraction& isect,
+                                    bool through, float carried, std::vector<double>& chances)
+{
+    std::vector<double> counts(2 + kernel.frame.singleCount + 1);
+    chances.assign(counts.size(), 0);
+    for (uint i = 0; i < SAMPLES; i++) {
+        const auto choice = kernel.chooseLight(isect, through, carried, kernel.random4(0, i, 0).x);
+        size_t k = counts.size() - 1;
+        if (choice.light == Kernel<>::TAKE_PROBE)
+            k = 0;
+        else if (choice.light == Kernel<>::TAKE_TABLE)
+            k = 1;
+        else if (choice.light != Kernel<>::TAKE_NOTHING)
+            k = 2 + choice.light;
+        counts[k]++;
+        chances[0] = choice.probeChance;
+        chances[1] = choice.tableChance;
+        if (k >= 2 && k + 1 < counts.size()) chances[k] = choice.chance;
+    }
+    return counts;
+}
+
+TEST(Lights, areChosenAsOftenAsTheChoiceSays)
+{
+    const PreparedScene prepared = prepareScene(mixedScene(), BvhBuild::sweep, 1);
+    LightKernel kernel(prepared);
+    ASSERT_EQ(kernel.frame.singleCount, 3u);
+    for (float carried : {1.0f, 0.1f, 0.0f}) {
+        for (bool through : {false, true}) {
+            std::vector<double> chances;
+            const std::vector<double> counts =
+                countsOfChoices(kernel, pointAt({0, 0, 0}), through, carried, chances);
+            double sum = 0;
+            for (double chance : chances) sum += chance;
+            EXPECT_NEAR(sum, carried == 1 ? 1 : carried == 0 ? 0.0625 : 0.4, 1e-7);
+            EXPECT_EQ(counts[3] > 0, through) << "of the light below the ground";
+            chances.back() = 1 - sum;
+            for (size_t i = 0; i < counts.size(); i++) {
+                const double sigma = std::sqrt(SAMPLES * chances[i] * (1 - chances[i]));
+                EXPECT_NEAR(counts[i], SAMPLES * chances[i], 4.5 * sigma + 0.5) << i;
+            }
+        }
+    }
+}
+
+TEST(Lights, areChosenByWhatArrivesWhereNothingIsInTheWay)
+{
+    Scene scene = sphereScene({0, -1000, 0}, 1);
+    scene.materials[0].emission = vec3(0);
+    addLight(scene, LIGHT_POINT, vec3(4)).position = {0, 2, 0};   // irradiance 1
+    addLight(scene, LIGHT_POINT, vec3(27)).position = {0, 3, 0};  // 3
+    const PreparedScene prepared = prepareScene(std::move(scene), BvhBuild::sweep, 1);
+    LightKernel kernel(prepared);
+    std::vector<double> chances;
+    countsOfChoices(kernel, pointAt({0, 0, 0}), false, 1, chances);
+    // Each is raised by a part of the sum
+    EXPECT_NEAR(chances[2], (1 + 4 / 32.0) / (4 + 8 / 32.0), 1e-6);
+    EXPECT_NEAR(chances[3], (3 + 4 / 32.0) / (4 + 8 / 32.0), 1e-6);
 }
 
 /// A probe whose texels are a random mixture of dark and bright, some of them black.

@@ -39,7 +39,7 @@ TEST(LightTable, hasEveryShapeThatShinesByItsLuminanceTimesItsArea)
     EXPECT_EQ(table.lights[2].type, LIGHT_SPHERE);
     EXPECT_EQ(scene.bvh.primitives[table.lights[2].slot].shape, SHAPE_SPHERE);
     EXPECT_NEAR(table.lightPerPower, 1 / sum, 1e-6);
-    EXPECT_EQ(table.probeChance, 0);
+    EXPECT_EQ(table.probeMean, 0);
     EXPECT_EQ(scene.deviceScene().frame.lightCount, 0u) << "phong has no such lights";
 }
 
@@ -48,14 +48,20 @@ TEST(LightTable, doesNotDependOnTheTree)
     Scene scene = lampsScene();
     appendShape(scene, makeSphere({-3, 1, 0}, 0.4, 5, false), {}, 2, "sphere");
     const PreparedScene a = prepared(scene, BvhBuild::sweep), b = prepared(scene, BvhBuild::binned);
-    ASSERT_EQ(a.lightTable.lights.size(), 20483u);
-    ASSERT_EQ(b.lightTable.lights.size(), 20483u);
+    ASSERT_EQ(a.lightTable.choiceCount, 20483u);
+    ASSERT_EQ(b.lightTable.choiceCount, 20483u);
     bool sameSlots = true;
-    for (size_t i = 0; i < a.lightTable.lights.size(); i++) {
+    for (size_t i = 0; i < a.lightTable.choiceCount; i++) {
         const Light &p = a.lightTable.lights[i], &q = b.lightTable.lights[i];
         EXPECT_EQ(a.bvh.primitives[p.slot].number, b.bvh.primitives[q.slot].number);
         EXPECT_EQ(p.chance, q.chance);
         sameSlots = sameSlots && p.slot == q.slot;
+    }
+    const size_t clusters = a.lightTable.clusterCount;
+    ASSERT_EQ(b.lightTable.clusterCount, clusters);
+    for (size_t i = 20483; i < 20483 + clusters; i++) {
+        EXPECT_EQ(a.lightTable.lights[i].position, b.lightTable.lights[i].position);
+        EXPECT_EQ(a.lightTable.lights[i].intensity, b.lightTable.lights[i].intensity);
     }
     EXPECT_FALSE(sameSlots) << "the trees do not differ, so nothing was shown";
 }
@@ -91,10 +97,10 @@ TEST(LightTable, ofBsdfOnlyHasWhatNoScatteringFinds)
     scene.probe = addHalves(scene, vec3(1), vec3(0));
     scene.settings.lightSampling = LIGHTS_BSDF_ONLY;
     const PreparedScene some = prepared(scene);
-    EXPECT_EQ(some.lightTable.choiceCount, 1u);
-    EXPECT_EQ(some.lightTable.lights[0].chance, 1);
+    EXPECT_EQ(some.lightTable.singleCount, 1u);
+    EXPECT_EQ(some.lightTable.choiceCount, 0u);
     EXPECT_EQ(some.lightTable.lightPerPower, 0) << "no shape is sampled";
-    EXPECT_EQ(some.lightTable.probeChance, 0);
+    EXPECT_EQ(some.lightTable.probeMean, 0);
 }
 
 TEST(LightTable, leavesAllShapesToScatteringWhereThereAreTooMany)
@@ -110,7 +116,8 @@ TEST(LightTable, leavesAllShapesToScatteringWhereThereAreTooMany)
     }
     addLight(scene, LIGHT_POINT, vec3(1)).position = {0, 3, 0};
     const PreparedScene many = prepared(scene);
-    EXPECT_EQ(many.lightTable.choiceCount, 1u);
+    EXPECT_EQ(many.lightTable.singleCount, 1u);
+    EXPECT_EQ(many.lightTable.choiceCount, 0u);
     EXPECT_EQ(many.lightTable.lightPerPower, 0);
     scene.lights.clear();
     scene.instances.resize(10);
@@ -135,7 +142,7 @@ TEST(ProbeTable, isNotMadeForLightThatIsTheSameFromEverywhere)
             Scene scene = probeScene(PROBE_LATLONG, FILTER_BILINEAR, size, size);
             for (vec4& texel : scene.probeTexels) texel = vec4(vec3(radiance), 0);
             const PreparedScene plain = prepared(scene);
-            EXPECT_EQ(plain.lightTable.probeChance, 0);
+            EXPECT_EQ(plain.lightTable.probeMean, 0);
             EXPECT_TRUE(plain.lightTable.entries.empty());
         }
     }
@@ -147,7 +154,7 @@ TEST(ProbeTable, givesOneBrightTexelAll)
         Scene scene = probeScene(mapping, FILTER_NEAREST, 8, 8);
         scene.probeTexels[8 * 3 + 5] = vec4(1, 2, 3, 0);
         const PreparedScene bright = prepared(scene);
-        EXPECT_EQ(bright.lightTable.probeChance, 1);
+        EXPECT_GT(bright.lightTable.probeMean, 0);
         ASSERT_EQ(bright.lightTable.entries.size(), 64u);
         for (const AliasEntry& entry : bright.lightTable.entries) EXPECT_EQ(entry.alias, 29u);
         const auto texels = bright.deviceScene().probeTexels;
@@ -169,16 +176,65 @@ TEST(ProbeTable, weighsTexelsByTheSolidAngleThatTheyStandFor)
     }
 }
 
-TEST(ProbeTable, sharesWithLightsSuchThatNeitherStarves)
+TEST(ProbeTable, knowsHowMuchComesFromWhere)
 {
-    for (float radiance : {1e-6f, 1e6f}) {
-        Scene scene = probeScene(PROBE_LATLONG, FILTER_NEAREST, 2, 2);
-        scene.probeTexels[0] = vec4(radiance);
-        addLight(scene, LIGHT_POINT, vec3(1)).position = {0, 3, 0};
-        const PreparedScene both = prepared(scene);
-        EXPECT_EQ(both.lightTable.probeChance, radiance < 1 ? 0.25f : 0.75f);
-        EXPECT_EQ(both.lightTable.lights[0].chance, radiance < 1 ? 0.75f : 0.25f);
+    // Upper half white, lower half black: mean 1/2, and 3/4 more per unit of height (3 times the
+    // mean of the height where it is positive, times a half)
+    for (uint mapping : {PROBE_LATLONG, PROBE_ANGULAR}) {
+        Scene scene = probeScene(mapping, FILTER_NEAREST, 64, 64);
+        for (uint y = 0; y < 32; y++) {
+            for (uint x = 0; x < 64; x++) scene.probeTexels[64 * y + x] = vec4(1, 1, 1, 0);
+        }
+        const vec3 axes[] = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};  // up is +X
+        scene.probe.axisX = axes[0];
+        scene.probe.axisY = axes[1];
+        scene.probe.axisZ = axes[2];
+        const LightTable table = prepared(scene).lightTable;
+        EXPECT_NEAR(table.probeMean, 0.5, 2e-3) << mapping;
+        EXPECT_NEAR(table.probeSlope.x, 0.75, 2e-3) << mapping;
+        EXPECT_NEAR(table.probeSlope.y, 0, 2e-3) << mapping;
+        EXPECT_NEAR(table.probeSlope.z, 0, 2e-3) << mapping;
     }
+}
+
+TEST(LightClusters, haveTheStrengthOfAllAndAreWhereItIs)
+{
+    Scene scene = lampsScene();
+    const LightTable table = prepared(scene).lightTable;
+    ASSERT_EQ(table.clusterCount, 3u) << "each of three lights by itself";
+    double sum = 0;
+    for (uint i = 0; i < 3; i++) {
+        const Light& cluster = table.lights[3 + i];
+        EXPECT_EQ(cluster.type, LIGHT_CLUSTER);
+        sum += cluster.intensity.x;
+        if (cluster.position.x > 1.5f) {
+            EXPECT_NEAR(cluster.intensity.x, 2 * 0.7152 * std::numbers::pi * 0.25, 1e-6);
+            EXPECT_NEAR(cluster.cosOuter, 0.25, 1e-6) << "squared radius of the sphere";
+            EXPECT_EQ(cluster.position, vec3(2, 2, 0));
+        }
+    }
+    EXPECT_NEAR(sum, 3 * 2 * 0.5 + 2 * 0.7152 * std::numbers::pi * 0.25, 1e-5);
+}
+
+TEST(LightClusters, areFewHoweverManyLightsThereAre)
+{
+    Scene scene = lampsScene();
+    for (uint i = 0; i < 100; i++) {
+        Light& light = addLight(scene, i % 2 == 0 ? LIGHT_POINT : LIGHT_DIRECTIONAL, vec3(1));
+        light.position = {float(i), 3, float(i * i % 17)};
+        light.direction = {0, -1, 0};
+    }
+    const LightTable table = prepared(scene).lightTable;
+    EXPECT_EQ(table.singleCount, 0u);
+    EXPECT_EQ(table.choiceCount, 103u);
+    ASSERT_EQ(table.clusterCount, MAX_LIGHT_CLUSTERS);
+    double sum = 0, everywhere = 0;
+    for (uint i = 0; i < table.clusterCount; i++) {
+        sum += table.lights[103 + i].intensity.x;
+        everywhere += table.lights[103 + i].cosInner;
+    }
+    EXPECT_NEAR(sum, 50 + 3 + 2 * 0.7152 * std::numbers::pi * 0.25, 1e-4);
+    EXPECT_NEAR(everywhere, 50, 1e-4);
 }
 
 }  // namespace

@@ -59,6 +59,7 @@ TestsPerRay countTests(const DeviceScene& scene, const Bvh& tree, const RaySet& 
     changed.primitives = tree.primitives;
     changed.frame.rootRef = tree.rootRef;
     changed.treeDepth = tree.statistics.depth;
+    changed.wide = {};  // the wide tree was made of another one
     DeviceOptions options;
     options.threads = threads;
     const std::unique_ptr<Device> device = makeCpuDevice(options);
