@@ -165,7 +165,7 @@ RoundState VulkanAdaptiveTile::runRound(uint32_t dispatches, bool begin)
                 recordStage(commands, host_.pipelines.pass, before_, STAGE_FOLD);
                 recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE);
             }
-                host_.statistics.dispatches += count;
+            host_.statistics.dispatches += count;
             for (uint32_t i = 0; i < count; i++) {
                 recordStage(commands, host_.pipelines.path, active_, 0);
                 recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE);

@@ -137,7 +137,7 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     uint32_t stackSize = chooseStackSize(stackEntriesFor(scene, nodeWidth));
     auto start = std::chrono::steady_clock::now();
     auto uploaded = std::make_unique<VulkanScene>(
-        uploadScene(*context_, scene, options_.buffers, variant_.texelBuffers, nodeWidth));
+        uploadScene(*context_, scene, {options_.buffers, variant_.texelBuffers}, nodeWidth));
     statistics_.uploadSeconds += secondsSince(start);
     preparePipeline(uploaded->texel, featuresOf(scene), stackSize, nodeWidth);
     scene_ = std::move(uploaded);

@@ -87,8 +87,9 @@ std::string whyUnusable(const PhysicalDevice& device)
 }
 
 bool chooseTexelBuffers(const PhysicalDevice& device, const SceneBytes& bytes,
-                        DeviceOptions::Buffers wanted, bool preferTexels)
+                        const BufferChoice& choice)
 {
+    const DeviceOptions::Buffers wanted = choice.wanted;
     std::string noTexels = whyNoTexelBuffers(device);
     if (noTexels.empty()) noTexels = whyTooLarge(device, bytes, true);
     std::string noStorage = whyNoStorageBuffers(device);
@@ -96,7 +97,7 @@ bool chooseTexelBuffers(const PhysicalDevice& device, const SceneBytes& bytes,
 
     const bool texelsFit = wanted != DeviceOptions::Buffers::storage && noTexels.empty();
     const bool storageFits = wanted != DeviceOptions::Buffers::texel && noStorage.empty();
-    if (texelsFit && (preferTexels || !storageFits)) return true;
+    if (texelsFit && (choice.preferTexels || !storageFits)) return true;
     if (storageFits) return false;
     std::string why = fmt::format("texel buffers: {}; storage buffers: {}", noTexels, noStorage);
     if (wanted == DeviceOptions::Buffers::texel) why = "texel buffers: " + noTexels;

@@ -19,11 +19,17 @@ const char* sceneArrayName(uint32_t binding);
 /// Empty, or why no kernel of ours can run on the device, whatever the scene.
 std::string whyUnusable(const PhysicalDevice& device);
 
+/// How a scene is to be read.
+struct BufferChoice {
+    DeviceOptions::Buffers wanted = DeviceOptions::Buffers::automatic;
+    bool preferTexels = true;  ///< where `automatic` leaves the choice
+};
+
 /// True to read the scene through texel buffers, false for storage buffers: as wanted, else what is preferred when
 /// every array fits, else the other.
 /// Throws noDevice with the numbers when the forced kind, or both, cannot hold the scene.
 bool chooseTexelBuffers(const PhysicalDevice& device, const SceneBytes& bytes,
-                        DeviceOptions::Buffers wanted, bool preferTexels);
+                        const BufferChoice& choice);
 
 /// Width and height of a workgroup: as wanted, halved until the device allows it.
 std::array<uint32_t, 2> chooseGroupShape(const PhysicalDevice& device, uint32_t width,

@@ -80,8 +80,8 @@ Buffer uploadArray(Context& context, const std::string& name, VkBufferUsageFlags
 
 }  // namespace
 
-VulkanScene uploadScene(Context& context, const DeviceScene& given, DeviceOptions::Buffers buffers,
-                        bool preferTexels, uint32_t nodeWidth)
+VulkanScene uploadScene(Context& context, const DeviceScene& given, const BufferChoice& buffers,
+                        uint32_t nodeWidth)
 {
     const DeviceScene scene = walkedScene(given, nodeWidth);
     Frame frame = scene.frame;
@@ -94,7 +94,7 @@ VulkanScene uploadScene(Context& context, const DeviceScene& given, DeviceOption
         bytes[i] = arrays[i].size();
         result.bytes += bytes[i];
     }
-    result.texel = chooseTexelBuffers(context.physical, bytes, buffers, preferTexels);
+    result.texel = chooseTexelBuffers(context.physical, bytes, buffers);
     result.stepsPerSample = mostStepsPerSample(scene);
     requireMemory(context.physical, result.bytes);
 

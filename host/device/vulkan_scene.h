@@ -1,7 +1,7 @@
 // A scene's arrays as buffers on a Vulkan device.
 #pragma once
 
-#include "device/device.h"
+#include "device/vulkan_limits.h"
 #include "vulkan/buffer.h"
 
 namespace sahl {
@@ -17,7 +17,7 @@ struct VulkanScene {
 /// Copies the scene to the device. Throws noDevice when one of its arrays exceeds a limit of the
 /// device, deviceLost when all together exceed its memory; nothing is allocated before both checks.
 ///   nodeWidth  of the trees that rays will walk; the others are left out
-VulkanScene uploadScene(Context& context, const DeviceScene& scene, DeviceOptions::Buffers buffers,
-                        bool preferTexels, uint32_t nodeWidth);
+VulkanScene uploadScene(Context& context, const DeviceScene& scene, const BufferChoice& buffers,
+                        uint32_t nodeWidth);
 
 }  // namespace sahl
