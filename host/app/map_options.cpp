@@ -99,6 +99,13 @@ void checkMapOptions(const MapOptions& options)
     }
 }
 
+bool needFireflies(const MapOptions& options)
+{
+    return std::any_of(options.maps.begin(), options.maps.end(), [](const MapOptions::Request& map) {
+        return map.quantity.layer == std::string_view("firefly");
+    });
+}
+
 bool needFirstHits(const MapOptions& options)
 {
     return std::any_of(options.maps.begin(), options.maps.end(),

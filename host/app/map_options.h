@@ -22,6 +22,9 @@ void addMapOptions(CLI::App& command, MapOptions& options);
 /// Refuses options that contradict each other (usage).
 void checkMapOptions(const MapOptions& options);
 
+/// Whether some map shows fireflies.
+bool needFireflies(const MapOptions& options);
+
 /// Whether some map needs what camera rays meet first.
 bool needFirstHits(const MapOptions& options);
 

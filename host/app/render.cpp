@@ -16,6 +16,7 @@
 #include "app/skip_existing.h"
 #include "app/stats.h"
 #include "app/stop_options.h"
+#include "film/fireflies.h"
 #include "film/layers.h"
 #include "render/prepare.h"
 #include "render/scene_hash.h"
@@ -217,6 +218,7 @@ void writeAll(const RenderOptions& options, const Film& film, std::vector<ImageC
     if (!options.output.firstHits) layers = layers.first(always);  // the rest is for the maps
     if (partial) return writePartialOutputs(film, options.output, metadata, layers);
     writeOutputs(film, options.output, metadata, layers);
+    if (needFireflies(options.maps)) channels.push_back(fireflyChannel(film, firefliesOf(film)));
     writeMaps(options.maps, channels, film.width, film.height, metadata);
     if (!options.output.tone.histogram.empty()) {
         writeHistogram(meanImage(film), options.output.tone, metadata);

@@ -1,6 +1,7 @@
 #include "app/stats.h"
 
 #include "bvh/build_names.h"
+#include "film/fireflies.h"
 #include "sahl_version.h"
 
 #include <algorithm>
@@ -31,6 +32,24 @@ Json pixelsJson(const Film& film)
             {"nodeVisitsMax", most.boxTests / 2},
             {"primitiveTestsMean", double(film.counters.primitiveTests) / pixels},
             {"primitiveTestsMax", most.primitiveTests}};
+}
+
+/// Number and weight of the fireflies, and where the worst are.
+Json firefliesJson(const Film& film)
+{
+    constexpr size_t MOST_LISTED = 16;
+    const std::vector<Firefly> fireflies = firefliesOf(film);
+    Json worst = Json::array();
+    for (const Firefly& firefly : fireflies) {
+        if (worst.size() == MOST_LISTED) break;
+        worst.push_back({{"x", firefly.x},
+                         {"y", firefly.y},
+                         {"luminance", firefly.luminance},
+                         {"around", firefly.around},
+                         {"share", firefly.share}});
+    }
+    return {
+        {"pixels", fireflies.size()}, {"excess", excessShare(film, fireflies)}, {"worst", worst}};
 }
 
 }  // namespace
@@ -110,6 +129,7 @@ Json statisticsJson(const PreparedScene& prepared, const Film& film, Device& dev
           {"stepBudget", work.stepBudget}}},
         {"counters", countersJson(counters)},
         {"pixels", pixelsJson(film)},
+        {"fireflies", firefliesJson(film)},
         {"seconds",
          {{"load", seconds.load},
           {"build", seconds.build},

@@ -69,6 +69,7 @@ const std::vector<MapQuantity>& mapQuantities()
         {"primitives", "primitiveTests", Kind::scalar, false},
         {"samples", "samples", Kind::scalar, false},
         {"error", "error", Kind::scalar, false},
+        {"fireflies", "firefly", Kind::scalar, false},
         {"normals", "normal", Kind::direction, true},
         {"geometric-normals", "geometricNormal", Kind::direction, true},
         {"depth", "depth", Kind::distance, true},

@@ -14,7 +14,7 @@ struct MapQuantity {
     const char* name;   ///< on the command line
     const char* layer;  ///< "depth" of the channel depth.Z
     enum class Kind { scalar, distance, direction, colour } kind;
-    bool ofFirstHits;  ///< from firstHitChannels(), else from statisticsChannels()
+    bool ofFirstHits;  ///< from firstHitChannels(), else from statisticsChannels() or fireflyChannel()
 };
 
 /// All of them.
