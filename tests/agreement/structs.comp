@@ -96,5 +96,5 @@ void main()
     put(x.firstTexel); put(x.width); put(x.height); put(x.flags); put(x.rowS); put(x.strength);
     put(x.rowT); put(x.unused0); put(x.mean); put(x.unused1);
     put(job.tileX); put(job.tileY); put(job.tileWidth); put(job.tileHeight);
-    put(job.firstSample); put(job.sampleCount); put(job.stepBudget); put(job.unused0);
+    put(job.firstSample); put(job.sampleCount); put(job.stepBudget); put(job.samplesAtOnce);
 }
