@@ -31,6 +31,13 @@ inline float pickAxis(const vec3& v, uint axis)
     return (&v.x)[axis];
 }
 
+/// The component of a - b along an axis: two reads, the second of which the caller has made.
+///   bAlong  pickAxis(b, axis)
+inline float pickDifference(const vec3& a, const vec3&, uint axis, float bAlong)
+{
+    return pickAxis(a, axis) - bAlong;
+}
+
 /// As pick(), by branches: the processor guesses which, and reads the next node before it is known.
 /// The empty statements keep the compiler from making one selection of them.
 inline uint pickByGuess(const uvec4& v, uint i)

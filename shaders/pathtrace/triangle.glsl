@@ -81,15 +81,15 @@ bool intersectTriangle(vec3 org, vec3 dir, ShearedRay ray, READ(Primitive) trian
     b2 = 0.0f;
 
     // Corners relative to the origin, sheared
-    float az = pickAxis(triangle.p0, ray.kz) - ray.oz;
-    float bz = pickAxis(triangle.p1, ray.kz) - ray.oz;
-    float cz = pickAxis(triangle.p2, ray.kz) - ray.oz;
-    float ax = (pickAxis(triangle.p0, ray.kx) - ray.ox) - ray.sx * az;
-    float ay = (pickAxis(triangle.p0, ray.ky) - ray.oy) - ray.sy * az;
-    float bx = (pickAxis(triangle.p1, ray.kx) - ray.ox) - ray.sx * bz;
-    float by = (pickAxis(triangle.p1, ray.ky) - ray.oy) - ray.sy * bz;
-    float cx = (pickAxis(triangle.p2, ray.kx) - ray.ox) - ray.sx * cz;
-    float cy = (pickAxis(triangle.p2, ray.ky) - ray.oy) - ray.sy * cz;
+    float az = pickDifference(triangle.p0, org, ray.kz, ray.oz);
+    float bz = pickDifference(triangle.p1, org, ray.kz, ray.oz);
+    float cz = pickDifference(triangle.p2, org, ray.kz, ray.oz);
+    float ax = pickDifference(triangle.p0, org, ray.kx, ray.ox) - ray.sx * az;
+    float ay = pickDifference(triangle.p0, org, ray.ky, ray.oy) - ray.sy * az;
+    float bx = pickDifference(triangle.p1, org, ray.kx, ray.ox) - ray.sx * bz;
+    float by = pickDifference(triangle.p1, org, ray.ky, ray.oy) - ray.sy * bz;
+    float cx = pickDifference(triangle.p2, org, ray.kx, ray.ox) - ray.sx * cz;
+    float cy = pickDifference(triangle.p2, org, ray.ky, ray.oy) - ray.sy * cz;
 
     // Edge functions: neighbours compute the same products for a shared edge, so no ray slips through
     float u = cx * by - cy * bx;
