@@ -166,14 +166,16 @@ void collectKeys(const nlohmann::json& json, const std::string& prefix, std::set
     }
 }
 
-/// The keys that docs/stats.md explains: lines "| `key` | ...".
+/// The keys that docs/stats.md explains: lines "| `key` | ...", without those of what lists hold.
 std::set<std::string> documentedKeys()
 {
     std::set<std::string> keys;
     std::ifstream file(sourceFolder() / "docs/stats.md");
     for (std::string line; std::getline(file, line);) {
         if (line == "## Of the tree alone") break;  // what sahl bvh adds
-        if (line.starts_with("| `")) keys.insert(line.substr(3, line.find('`', 3) - 3));
+        if (!line.starts_with("| `")) continue;
+        const std::string key = line.substr(3, line.find('`', 3) - 3);
+        if (key.find("[]") == std::string::npos) keys.insert(key);
     }
     return keys;
 }
