@@ -17,7 +17,9 @@ using std::numbers::pi;
 
 constexpr double FAMILY_LEVEL = 0.01;
 
-/// Integral of f over a rectangle by Gauss' rule of 3 x 3 points, refined where quarters disagree.
+/// Integral of f over a rectangle by Gauss' rule of 3 x 3 points, refined where quarters disagree,
+/// and where some corners are zero and others not: there an edge of f passes, maybe between all
+/// points.
 double integrate(const std::function<double(double, double)>& f, double x0, double x1, double y0,
                  double y1, double tolerance, int depth = 0)
 {
@@ -36,7 +38,10 @@ double integrate(const std::function<double(double, double)>& f, double x0, doub
     const double x = (x0 + x1) / 2, y = (y0 + y1) / 2;
     const double fine =
         gauss(x0, x, y0, y) + gauss(x, x1, y0, y) + gauss(x0, x, y, y1) + gauss(x, x1, y, y1);
-    if (depth >= 9 || std::abs(fine - gauss(x0, x1, y0, y1)) < tolerance) return fine;
+    const int filled = (f(x0, y0) > 0 ? 1 : 0) + (f(x0, y1) > 0 ? 1 : 0) + (f(x1, y0) > 0 ? 1 : 0) +
+                       (f(x1, y1) > 0 ? 1 : 0);
+    const bool cut = filled != 0 && filled != 4 && (x1 - x0) * (y1 - y0) > 50 * tolerance;
+    if (depth >= 9 || (!cut && std::abs(fine - gauss(x0, x1, y0, y1)) < tolerance)) return fine;
     return integrate(f, x0, x, y0, y, tolerance, depth + 1) +
            integrate(f, x, x1, y0, y, tolerance, depth + 1) +
            integrate(f, x0, x, y, y1, tolerance, depth + 1) +
@@ -93,11 +98,14 @@ struct Cells {
     }
 
     /// Integral of a density over cell `index`; pieces grow with the distance from the axis to 3
-    /// degrees, so that neither a narrow lobe nor what the horizon leaves of a wide one is overlooked.
+    /// degrees by 11, so that neither a narrow lobe nor what the horizon leaves of a wide one is
+    /// overlooked.
     double probability(size_t index, const std::function<double(const dvec3&)>& pdf,
                        double tolerance) const
     {
         const size_t ring = index / SECTORS;
+        constexpr int PIECES = 4;
+        const double width = 2 * pi / SECTORS / PIECES;
         const double phi = 2 * pi * static_cast<double>(index % SECTORS) / SECTORS;
         auto density = [&](double theta, double around) {
             return pdf(directionOf(theta, around)) * std::sin(theta);
@@ -106,7 +114,10 @@ struct Cells {
         while (from < border[ring + 1]) {
             const double length = std::clamp(from, 1e-5, 0.05);
             const double end = std::min(from + length, border[ring + 1]);
-            sum += integrate(density, from, end, phi, phi + 2 * pi / SECTORS, tolerance);
+            for (int i = 0; i < PIECES; i++) {
+                sum += integrate(density, from, end, phi + i * width, phi + (i + 1) * width,
+                                 tolerance / PIECES);
+            }
             from = end;
         }
         return sum;
@@ -118,7 +129,10 @@ class BsdfHistogram {
 public:
     /// The density that counts are compared with is that of `claimed`.
     BsdfHistogram(const BsdfCase& c, const Material& claimed)
-        : case_(c), claimed_(claimed), isect_(surfaceOf(c)), wo_(viewerOf(c, isect_)),
+        : case_(c),
+          claimed_(claimed),
+          isect_(surfaceOf(c)),
+          wo_(viewerOf(c, isect_)),
           cells_{Cells(mirrored()), Cells(straight())}
     {
     }
