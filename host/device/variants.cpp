@@ -67,11 +67,11 @@ Variant variantNamed(const std::string& name)
     throw usageError("--variant {}: no such variant; there are {}", name, names);
 }
 
-Variant standardVariant(const std::string&)
+Variant standardVariant()
 {
     // lavapipe 22.3: texel buffers 1.2 to 1.9 times as fast as storage buffers, shapes of
-    // workgroups within 4 %, all samples of a block at once 1.1 to 1.3 times as fast as one.
-    // SwiftShader has no texel buffers of any size.
+    // workgroups within 4 %, all samples of a block at once 1.3 times as fast
+    // as one on short paths. SwiftShader has no texel buffers of any size.
     return {true, 8, 8, BLOCK_SIZE};
 }
 

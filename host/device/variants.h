@@ -23,9 +23,8 @@ std::vector<Variant> allVariants();
 /// Throws usage with the list of names.
 Variant variantNamed(const std::string& name);
 
-/// What runs where nothing was tuned: by measurements of drivers. `driver` is
-/// VulkanDeviceInfo::driver.
-Variant standardVariant(const std::string& driver);
+/// What runs where nothing was tuned, whatever the driver.
+Variant standardVariant();
 
 /// The variant that `sahl devices --tune` found for the device and driver, or nothing: where it was
 /// not tuned, or by other names than today's. Never throws.

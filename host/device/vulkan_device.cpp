@@ -48,7 +48,7 @@ std::string tileName(const TileRequest& tile)
 /// the options name.
 Variant chooseVariant(const PhysicalDevice& device, const DeviceOptions& options)
 {
-    Variant variant = standardVariant(device.driver);
+    Variant variant = standardVariant();
     if (!options.variant.empty())
         variant = variantNamed(options.variant);
     else if (std::optional<Variant> tuned = tunedVariant(device.name, device.driver))
