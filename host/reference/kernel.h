@@ -25,11 +25,15 @@ using namespace glm;  // GLSL's names: floor, sqrt, floatBitsToUint, ...
 
 /// One invocation. Order is one of ORDER_*. Scenes without instances are rendered without Instances,
 /// which takes a few per cent less time and changes nothing else; likewise those without textures.
-template <uint Order = ORDER_NEAR_FIRST, bool Instances = true, bool Textures = false, uint NodeWidth = 2>
+/// Watched: walks stop when stepsLeft is spent, and the height of the stack is checked, as on devices. What renders
+/// here does without: its steps never end, no compiler cuts loops, and the host knows how high the stack gets.
+template <uint Order = ORDER_NEAR_FIRST, bool Instances = true, bool Textures = false,
+          uint NodeWidth = 2, bool Watched = false>
 struct Kernel {
     static constexpr uint STACK_SIZE = MAX_STACK_SIZE;
     static constexpr uint NODE_WIDTH = NodeWidth;
     static constexpr bool STACK_IN_REGISTERS = false;
+    static constexpr bool WALKS_ARE_WATCHED = Watched;
     static constexpr uint TRAVERSAL_ORDER = Order;
     static constexpr uint FEATURES = FEATURES_ALL & ~(Instances ? 0u : FEATURE_INSTANCES) &
                                      ~(Textures ? 0u : FEATURE_TEXTURES | FEATURE_CUTOUTS);

