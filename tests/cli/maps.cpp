@@ -71,14 +71,14 @@ std::string seldomFoundLamp()
         {"integrator", {{"samplesPerPixel", 32}, {"maxBounces", 1}, {"lightSampling", "bsdf"}}},
         {"materials",
          {{"grey", {{"type", "lambert"}}},
-          {"lamp", {{"type", "lambert"}, {"emission", {900, 900, 900}}}}}},
+          {"lamp", {{"type", "lambert"}, {"emission", {225, 225, 225}}}}}},
         {"shapes",
          {{{"type", "rectangle"},
            {"corner", {-5, 0, 5}},
            {"edgeU", {10, 0, 0}},
            {"edgeV", {0, 0, -10}},
            {"material", "grey"}},
-          {{"type", "sphere"}, {"center", {0, 4, 0}}, {"radius", 0.1}, {"material", "lamp"}}}},
+          {{"type", "sphere"}, {"center", {0, 4, 0}}, {"radius", 0.2}, {"material", "lamp"}}}},
         {"environment", {{"radiance", {0.1, 0.1, 0.1}}}}};
     return scene.dump();
 }
