@@ -84,7 +84,7 @@ class Cycles(unittest.TestCase):
 
     def test_bunny_under_a_probe(self):
         self.require("meshes", "miro", "bunny.obj")
-        self.agree("bunny, uffizi", bunny(self.around(PROBE)), 256, 64)
+        self.agree("bunny, uffizi", bunny(self.around(PROBE)), 64, 64)
 
     def test_sponza_under_one_radiance(self):
         self.require("meshes", "miro", "sponza.obj")
@@ -92,7 +92,7 @@ class Cycles(unittest.TestCase):
 
     def test_sponza_under_a_probe(self):
         self.require("meshes", "miro", "sponza.obj")
-        self.agree("Sponza, uffizi", sponza(self.around(PROBE)), 512, 64)
+        self.agree("Sponza, uffizi", sponza(self.around(PROBE)), 256, 64)
 
     def test_cornell_box(self):
         self.require("references", "bitterli", "cornell-box", "scene.json")
