@@ -138,6 +138,19 @@ std::vector<double> powersOfProbe(const DeviceScene& scene)
     return texelPowers(probe, scene.probeTexels);
 }
 
+/// Share of the probe's light that is for shadow rays: what the power heuristic gives them where their
+/// density is that of the probe's mean point, and that of scattered rays 1 / pi. A bright lamp in the dark is
+/// all for them, a sky that is the same everywhere 1 / 17.
+double shareOfShadowRays(const DeviceScene& scene, const std::vector<double>& powers)
+{
+    const auto texels = scene.probeTexels.subspan(scene.frame.probe.firstTexel, powers.size());
+    double squares = 0;
+    for (size_t i = 0; i < powers.size(); i++) squares += powers[i] * luminance(vec3(texels[i]));
+    const double sum = sumOf(powers);
+    const double ratio = squares / (sum * sum) * std::numbers::pi;
+    return ratio * ratio / (ratio * ratio + 1);
+}
+
 /// Adds the probe, of which the texels' powers are given.
 void addProbe(const DeviceScene& scene, const std::vector<double>& powers, LightTable& table)
 {
@@ -145,8 +158,9 @@ void addProbe(const DeviceScene& scene, const std::vector<double>& powers, Light
     const std::vector<AliasEntry> entries = makeAliasTable(table.texelMasses);
     table.entries.insert(table.entries.end(), entries.begin(), entries.end());
     constexpr double SPHERE = 4 * std::numbers::pi;
-    table.probeMean = static_cast<float>(sumOf(powers) / SPHERE);
-    table.probeSlope = vec3(powerMoment(probe, powers) * (3 / SPHERE));
+    const double share = shareOfShadowRays(scene, powers);
+    table.probeMean = static_cast<float>(share * sumOf(powers) / SPHERE);
+    table.probeSlope = vec3(powerMoment(probe, powers) * (share * 3 / SPHERE));
 }
 
 }  // namespace

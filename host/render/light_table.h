@@ -22,7 +22,8 @@ struct LightTable {
     uint clusterCount = 0;    ///< these, gathered
     float lightPerPower = 0;  ///< of shapes: chance to be chosen per luminance and area [sr W^-1];
                               ///< 0: none of them is sampled
-    float probeMean = 0;  ///< luminance, over all directions; 0: the probe is not sampled
+    float probeMean = 0;  ///< luminance that shadow rays are for, over all directions; 0: the probe
+                          ///< is not sampled
     vec3 probeSlope{0};   ///< the same as far as it is linear in the direction: mean + slope . d
 };
 

@@ -340,7 +340,7 @@ struct Frame
     uint choiceCount;    // lights that the alias table is for: those that follow
     uint clusterCount;   // these as clusters, which follow them
     float lightPerPower; // 1 over the sum of the weights of the alias table; 0: shapes are left to chance
-    vec3 probeSlope;     // the luminance of the probe as far as it is linear in the direction: mean + slope . d
+    vec3 probeSlope;     // the probe's luminance that shadow rays are for, linear in the direction: mean + slope . d
     float probeMean;     // 0: the probe is left to chance
     vec3 gridAt;         // of the world's wide tree
     uint gridScale;

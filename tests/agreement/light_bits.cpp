@@ -1,4 +1,6 @@
 // Light of every kind has the same bits on every device, however it is looked for.
+#include "film/fireflies.h"
+#include "statistical/lamp_scene.h"
 #include "support/device_test.h"
 #include "support/light_scenes.h"
 #include "support/render_scenes.h"
@@ -38,6 +40,22 @@ TEST_F(LightBits, areEqualForAllLightsTogetherByEveryWayOfFindingThem)
 TEST_F(LongLightBits, areEqualForEveryKindOfLight)
 {
     expectSameBits(lightScenes(24), LIGHTS_MIS);
+}
+
+TEST_F(LightBits, firefliesAreTheSame)
+{
+    const PreparedScene lamp = prepareScene(lampScene(24, 16, 1), BvhBuild::sweep, 2);
+    const std::vector<Firefly> expected = firefliesOf(renderFilm(*makeCpuDevice({}), lamp, 0, 16));
+    const std::vector<Firefly> found = firefliesOf(renderFilm(*openFirstDevice(), lamp, 0, 16));
+    EXPECT_GT(expected.size(), 10u);
+    ASSERT_EQ(found.size(), expected.size());
+    for (size_t i = 0; i < found.size(); i++) {
+        EXPECT_EQ(found[i].x, expected[i].x);
+        EXPECT_EQ(found[i].y, expected[i].y);
+        EXPECT_EQ(found[i].luminance, expected[i].luminance);
+        EXPECT_EQ(found[i].around, expected[i].around);
+        EXPECT_EQ(found[i].share, expected[i].share);
+    }
 }
 
 }  // namespace

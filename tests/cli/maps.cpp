@@ -24,8 +24,8 @@ TEST_F(Maps, everyQuantity_becomesAPicture)
 {
     Arguments arguments = {"-o", "a.exr"};
     std::string answer = "a.exr\n";
-    for (std::string name :
-         {"nodes", "primitives", "samples", "error", "normals", "geometric-normals", "depth", "albedo"}) {
+    for (std::string name : {"nodes", "primitives", "samples", "error", "normals",
+                             "geometric-normals", "depth", "albedo"}) {
         arguments.insert(arguments.end(), {"--map", name + "=" + name + ".png"});
         answer += name + ".png\n";
     }
@@ -60,6 +60,63 @@ TEST_F(Maps, colours_areThoseOfTheLayer)
     double sum = 0;
     for (size_t i = 0; i < map.rgb.size(); i += 3) sum += map.rgb[i];
     EXPECT_NEAR(sum / (16 * 12) / 255 * 200, pixels["nodeVisitsMean"].get<double>(), 0.4);
+}
+
+/// A lamp that scattered rays alone find, and seldom, above a floor.
+std::string seldomFoundLamp()
+{
+    nlohmann::json scene = {
+        {"camera", {{"eye", {0, 2, 3}}, {"lookAt", {0, 0, 0}}, {"fovDeg", 40}}},
+        {"film", {{"width", 24}, {"height", 16}}},
+        {"integrator", {{"samplesPerPixel", 32}, {"maxBounces", 1}, {"lightSampling", "bsdf"}}},
+        {"materials",
+         {{"grey", {{"type", "lambert"}}},
+          {"lamp", {{"type", "lambert"}, {"emission", {225, 225, 225}}}}}},
+        {"shapes",
+         {{{"type", "rectangle"},
+           {"corner", {-5, 0, 5}},
+           {"edgeU", {10, 0, 0}},
+           {"edgeV", {0, 0, -10}},
+           {"material", "grey"}},
+          {{"type", "sphere"}, {"center", {0, 4, 0}}, {"radius", 0.2}, {"material", "lamp"}}}},
+        {"environment", {{"radiance", {0.1, 0.1, 0.1}}}}};
+    return scene.dump();
+}
+
+TEST_F(Maps, ofFirefliesShowThoseThatTheStatisticsCount)
+{
+    writeText(folder / "ball.json", seldomFoundLamp());
+    const RunResult result =
+        render({"-o", "a.exr", "--map", "fireflies=f.png", "--map-colors", "grey", "--map-scale",
+                "off", "--map-range", "0:2", "--stats", "stats.json"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const auto told = nlohmann::json::parse(textOf(folder / "stats.json"))["fireflies"];
+    const Image8 map = readPng(folder / "f.png");
+    ASSERT_EQ(map.rgb.size(), 3u * 24 * 16);
+
+    // A firefly is at least twice as bright as what is around it, so it is white; all else is black
+    size_t white = 0;
+    for (size_t i = 0; i < map.rgb.size(); i += 3) {
+        EXPECT_TRUE(map.rgb[i] == 0 || map.rgb[i] == 255) << i / 3;
+        white += map.rgb[i] == 255;
+    }
+    EXPECT_GT(white, 16u);
+    EXPECT_LT(white, 24u * 16 / 2);
+    EXPECT_EQ(told["pixels"], white);
+    EXPECT_GT(told["excess"], 0.2);
+    EXPECT_LT(told["excess"], 1.0);
+    ASSERT_EQ(told["worst"].size(), 16u);
+    double before = 1e30;
+    for (const auto& worst : told["worst"]) {
+        const size_t pixel = worst["y"].get<size_t>() * 24 + worst["x"].get<size_t>();
+        EXPECT_EQ(map.rgb.at(3 * pixel), 255) << worst;
+        const double excess = worst["luminance"].get<double>() - worst["around"].get<double>();
+        EXPECT_LE(excess, before) << worst;
+        before = excess;
+        EXPECT_GE(worst["luminance"], 2 * worst["around"].get<double>()) << worst;
+        EXPECT_GE(worst["share"], 0.25) << worst;
+        EXPECT_LE(worst["share"], 1.0) << worst;
+    }
 }
 
 TEST_F(Maps, changeNoByteOfThePicture)

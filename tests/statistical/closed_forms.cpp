@@ -121,6 +121,20 @@ TEST(Plane, underAnOvercastSkyHasSevenNinthsOfTheZenith)
     expectMean(frameMean(std::move(scene), 1024), 0.5 * 7 / 9);
 }
 
+/// What the camera sees behind the scene lights nothing in it.
+TEST(Plane, underAConstantProbeDoesNotKnowOfTheBackground)
+{
+    for (double target : {0.0, 10.0}) {
+        Scene scene = planeScene(0.6f);
+        setProbe(scene, 4, [](double) { return 2.5; });
+        scene.background = plainProbe(1, 1, PROBE_LATLONG, FILTER_NEAREST);
+        scene.background->firstTexel = static_cast<uint>(scene.probeTexels.size());
+        scene.probeTexels.emplace_back(vec3(7), 0);
+        setCamera(scene, {0, 5, 0}, {0, target, 0}, 40);
+        expectMean(frameMean(std::move(scene), 8), target > 5 ? 7 : 0.6 * 2.5);
+    }
+}
+
 void addPointLight(Scene& scene, vec3 position, float intensity)
 {
     Light light = {};

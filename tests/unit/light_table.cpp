@@ -179,7 +179,8 @@ TEST(ProbeTable, weighsTexelsByTheSolidAngleThatTheyStandFor)
 TEST(ProbeTable, knowsHowMuchComesFromWhere)
 {
     // Upper half white, lower half black: mean 1/2, and 3/4 more per unit of height (3 times the
-    // mean of the height where it is positive, times a half)
+    // mean of the height where it is positive, times a half). Points are found with a density of
+    // 1/(2 pi), so a fifth of it is for shadow rays
     for (uint mapping : {PROBE_LATLONG, PROBE_ANGULAR}) {
         Scene scene = probeScene(mapping, FILTER_NEAREST, 64, 64);
         for (uint y = 0; y < 32; y++) {
@@ -190,10 +191,22 @@ TEST(ProbeTable, knowsHowMuchComesFromWhere)
         scene.probe.axisY = axes[1];
         scene.probe.axisZ = axes[2];
         const LightTable table = prepared(scene).lightTable;
-        EXPECT_NEAR(table.probeMean, 0.5, 2e-3) << mapping;
-        EXPECT_NEAR(table.probeSlope.x, 0.75, 2e-3) << mapping;
+        EXPECT_NEAR(table.probeMean, 0.5 / 5, 5e-4) << mapping;
+        EXPECT_NEAR(table.probeSlope.x, 0.75 / 5, 5e-4) << mapping;
         EXPECT_NEAR(table.probeSlope.y, 0, 2e-3) << mapping;
         EXPECT_NEAR(table.probeSlope.z, 0, 2e-3) << mapping;
+    }
+}
+
+TEST(ProbeTable, leavesSoftLightToScatteredRaysAndLampsToShadowRays)
+{
+    // Of lat-long maps of one row all directions are as likely, so one texel of n that shines is
+    // found with a density of n / (4 pi)
+    for (uint n : {2u, 4u, 64u}) {
+        Scene scene = probeScene(PROBE_LATLONG, FILTER_NEAREST, n, 1);
+        scene.probeTexels[n - 1] = vec4(10, 10, 10, 0);
+        const double share = n * n / (n * n + 16.0);
+        EXPECT_NEAR(prepared(scene).lightTable.probeMean, 10.0 / n * share, 1e-5) << n;
     }
 }
 
