@@ -45,16 +45,21 @@ std::optional<Variant> findVariant(const std::string& name)
 
 std::string nameOf(const Variant& variant)
 {
-    return fmt::format("{}-{}x{}-by{}", variant.texelBuffers ? "texel" : "storage",
-                       variant.groupWidth, variant.groupHeight, variant.samplesAtOnce);
+    const std::string buffers = variant.texelBuffers ? "texel" : "storage";
+    if (variant.paths == Variant::Paths::waves) return buffers + "-wave";
+    if (variant.paths == Variant::Paths::sharedWaves) return buffers + "-wave-shared";
+    return fmt::format("{}-{}x{}-by{}", buffers, variant.groupWidth, variant.groupHeight, variant.samplesAtOnce);
 }
 
 std::vector<Variant> allVariants()
 {
     std::vector<Variant> all;
-    for (bool texel : {true, false})
+    for (bool texel : {true, false}) {
         for (uint32_t width : {8u, 16u})
-            for (uint32_t samples : {1u, BLOCK_SIZE}) all.push_back({texel, width, 8, samples});
+            for (uint32_t samples : {1u, BLOCK_SIZE}) all.push_back({texel, width, 8, samples, Variant::Paths::whole});
+        for (Variant::Paths paths : {Variant::Paths::waves, Variant::Paths::sharedWaves})
+            all.push_back({texel, 64, 1, BLOCK_SIZE, paths});
+    }
     return all;
 }
 
@@ -72,7 +77,7 @@ Variant standardVariant()
     // lavapipe 22.3: texel buffers 1.2 to 1.9 times as fast as storage buffers, shapes of
     // workgroups within 4 %, all samples of a block at once 1.3 times as fast
     // as one on short paths. SwiftShader has no texel buffers of any size.
-    return {true, 8, 8, BLOCK_SIZE};
+    return {true, 8, 8, BLOCK_SIZE, Variant::Paths::whole};
 }
 
 std::string tuningFile()

@@ -8,6 +8,7 @@
 #include "device/vulkan_limits.h"
 #include "device/vulkan_scene.h"
 #include "device/vulkan_trace.h"
+#include "device/vulkan_wave.h"
 #include "device/walked_tree.h"
 #include "shared/bindings.h"
 #include "vulkan/pipeline.h"
@@ -80,7 +81,9 @@ private:
     void preparePipeline(bool texel, uint32_t features, uint32_t stackSize, uint32_t nodeWidth);
     void prepareTileBuffers(size_t pixels);
     void prepareFirstHits(size_t pixels);
+    bool haveStorageBuffers(uint32_t ofKernel) const;
     void requireStorageBuffers(uint32_t ofKernel, const char* purpose) const;
+    void makePathPipelines();
     void bindAll(ComputePipeline& pipeline);
     void renderBlocks(const TileRequest& tile, std::span<PixelBlock> blocks);
     void requireTile(const TileRequest& tile, size_t blockCount) const;
@@ -109,6 +112,7 @@ private:
     bool bound_ = false;           // pipeline_'s descriptor set holds the buffers above
     bool firstHitsBound_ = false;  // likewise
     std::unique_ptr<AdaptivePipelines> adaptive_;  // made when first asked for
+    std::unique_ptr<VulkanWaves> waves_;           // where paths go in waves: in place of pipeline_
 };
 
 VulkanDevice::VulkanDevice(std::unique_ptr<Context> context, const DeviceOptions& options)
@@ -141,6 +145,7 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     statistics_.uploadSeconds += secondsSince(start);
     preparePipeline(uploaded->texel, featuresOf(scene), stackSize, nodeWidth);
     scene_ = std::move(uploaded);
+    if (waves_) waves_->setScene(*scene_);
     samplerKind_ = scene.frame.samplerKind;
     statistics_.sceneBytes = scene_->bytes;
     statistics_.texelBuffers = scene_->texel;
@@ -185,11 +190,35 @@ void VulkanDevice::preparePipeline(bool texel, uint32_t features, uint32_t stack
     tracePipeline_ = {};
     adaptive_ = {};
     try {
-        pipeline_ = makePipeline("path", BINDING_COUNT);
+        makePathPipelines();
     } catch (...) {
         pipelineStack_ = 0;
         throw;
     }
+}
+
+/// What takes paths to their ends, in the way of the variant; whole where the device binds too few buffers for waves.
+void VulkanDevice::makePathPipelines()
+{
+    pipeline_ = {};
+    bound_ = false;
+    waves_.reset();
+    Variant made = variant_;
+    if (!haveStorageBuffers(WAVE_STORAGE_BUFFERS)) made.paths = Variant::Paths::whole;
+    if (made.paths == Variant::Paths::waves && !context_->physical.subgroupBallots)
+        made.paths = Variant::Paths::sharedWaves;
+    statistics_.variant = nameOf(made);
+    if (made.paths == Variant::Paths::whole) {
+        pipeline_ = makePipeline("path", BINDING_COUNT);
+        return;
+    }
+    auto make = [this](const char* kernel, uint32_t bindings) {
+        return makePipeline(kernel, bindings, sizeof(WaveDispatch));
+    };
+    waves_ = std::make_unique<VulkanWaves>(
+        *context_,
+        makeWavePipelines(*context_, make, made.paths == Variant::Paths::waves, group_, pipelineStack_),
+        options_.waveSlots, work_, statistics_);
 }
 
 void VulkanDevice::prepareTileBuffers(size_t pixels)
@@ -206,12 +235,19 @@ void VulkanDevice::prepareTileBuffers(size_t pixels)
     suspended_ = createBuffer(*context_, {"suspended", suspendedBytes, usage, HostUse::none});
 }
 
-/// Throws noDevice where a kernel cannot bind so many storage buffers besides those of the scene.
+/// Whether a kernel can bind so many storage buffers besides those of the scene.
+bool VulkanDevice::haveStorageBuffers(uint32_t ofKernel) const
+{
+    uint32_t storageBuffers = (pipelineTexel_ ? 0 : SCENE_BUFFER_COUNT - 1) + ofKernel;
+    return storageBuffers <= context_->physical.properties.limits.maxPerStageDescriptorStorageBuffers;
+}
+
+/// Throws noDevice where it cannot.
 void VulkanDevice::requireStorageBuffers(uint32_t ofKernel, const char* purpose) const
 {
     uint32_t storageBuffers = (pipelineTexel_ ? 0 : SCENE_BUFFER_COUNT - 1) + ofKernel;
     uint32_t allowed = context_->physical.properties.limits.maxPerStageDescriptorStorageBuffers;
-    if (storageBuffers > allowed)
+    if (!haveStorageBuffers(ofKernel))
         throw Error(ErrorKind::noDevice,
                     fmt::format("'{}' binds {} storage buffers at once; {} {}; try --device cpu",
                                 context_->physical.name, allowed, purpose, storageBuffers));
@@ -260,11 +296,15 @@ void VulkanDevice::render(const TileRequest& tile, std::span<PixelBlock> blocks)
 {
     auto start = std::chrono::steady_clock::now();
     requireTile(tile, blocks.size());
-    prepareTileBuffers(blocks.size());
-    if (!bound_) bindAll(pipeline_);
-    bound_ = true;
-    active_ = &pipeline_;
-    renderBlocks(tile, blocks);
+    if (waves_) {
+        waves_->render(tileName(tile), tile, blocks);
+    } else {
+        prepareTileBuffers(blocks.size());
+        if (!bound_) bindAll(pipeline_);
+        bound_ = true;
+        active_ = &pipeline_;
+        renderBlocks(tile, blocks);
+    }
     statistics_.renderSeconds += secondsSince(start);
 }
 

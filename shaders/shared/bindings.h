@@ -27,6 +27,17 @@ SHARED_CONST uint BINDING_RAYS = 8u;
 SHARED_CONST uint BINDING_RAY_HITS = 9u;
 SHARED_CONST uint BINDING_RAY_WALKS = 10u;
 
+// In place of these, of the kernels of waves: storage buffers. wave_trace has all up to the
+// stacks, wave_shade those up to the hits, wave_film the first two and the pixels. wave_plan has the queues, at binding 0.
+SHARED_CONST uint BINDING_WAVE_QUEUES = 8u;    // WaveCounts, then the queues
+SHARED_CONST uint BINDING_WAVE_SAMPLES = 9u;   // WaveSample[] of the tile
+SHARED_CONST uint BINDING_WAVE_PATHS = 10u;    // WavePath[] and so on: of the slots
+SHARED_CONST uint BINDING_WAVE_RAYS = 11u;
+SHARED_CONST uint BINDING_WAVE_HITS = 12u;
+SHARED_CONST uint BINDING_WAVE_WALKS = 13u;
+SHARED_CONST uint BINDING_WAVE_STACKS = 14u;
+SHARED_CONST uint BINDING_WAVE_PIXELS = 10u;   // of wave_film: PixelBlock[] of the tile
+
 // Specialisation constants.
 SHARED_CONST uint SPEC_GROUP_WIDTH = 0u;   // workgroup shape [invocations]
 SHARED_CONST uint SPEC_GROUP_HEIGHT = 1u;
