@@ -77,7 +77,7 @@ public:
 
 private:
     ComputePipeline makePipeline(const std::string& kernel, uint32_t bindingCount,
-                                 uint32_t pushConstantBytes = sizeof(Dispatch)) const;
+                                 uint32_t pushConstantBytes = sizeof(Dispatch), bool waveResumes = false) const;
     void preparePipeline(bool texel, uint32_t features, uint32_t stackSize, uint32_t nodeWidth);
     void prepareTileBuffers(size_t pixels);
     void prepareFirstHits(size_t pixels);
@@ -153,7 +153,7 @@ void VulkanDevice::setScene(const DeviceScene& scene)
 
 /// A pipeline of the kernel `kernel`_texel or `kernel`_storage, for the stack and buffers in force.
 ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t bindingCount,
-                                           uint32_t pushConstantBytes) const
+                                           uint32_t pushConstantBytes, bool waveResumes) const
 {
     PipelineRequest request;
     request.name = kernel + (pipelineTexel_ ? "_texel" : "_storage");
@@ -172,6 +172,7 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     constants[SPEC_ORDER] = options_.traversalOrder;
     constants[SPEC_EXACT_MATH] = statistics_.exactMath ? 1 : 0;
     constants[SPEC_FEATURES] = pipelineFeatures_;
+    constants[SPEC_WAVE_RESUMES] = waveResumes ? 1 : 0;
     request.spirv = foldedKernel(request.name, constants);
     return createComputePipeline(*context_, request);
 }
@@ -212,13 +213,12 @@ void VulkanDevice::makePathPipelines()
         pipeline_ = makePipeline("path", BINDING_COUNT);
         return;
     }
-    auto make = [this](const char* kernel, uint32_t bindings) {
-        return makePipeline(kernel, bindings, sizeof(WaveDispatch));
+    auto make = [this](const char* kernel, uint32_t bindings, bool resumes) {
+        return makePipeline(kernel, bindings, sizeof(WaveDispatch), resumes);
     };
-    waves_ = std::make_unique<VulkanWaves>(
-        *context_,
-        makeWavePipelines(*context_, make, made.paths == Variant::Paths::waves, group_, pipelineStack_),
-        options_.waveSlots, work_, statistics_);
+    const bool ballots = made.paths == Variant::Paths::waves;
+    const WaveSetup setup = {ballots, group_[0] * group_[1], pipelineStack_, options_.waveSlots};
+    waves_ = std::make_unique<VulkanWaves>(*context_, setup, make, work_, statistics_);
 }
 
 void VulkanDevice::prepareTileBuffers(size_t pixels)

@@ -14,17 +14,18 @@ namespace {
 
 constexpr uint32_t SOFTWARE_SLOTS = 1u << 15;
 constexpr uint32_t HARDWARE_SLOTS = 1u << 19;
+constexpr uint64_t ROW_BYTES = sizeof(uvec4);
 
 /// Slots that the device's buffers and dispatches allow.
-uint32_t chooseSlots(const PhysicalDevice& device, uint32_t wanted, const WavePipelines& pipelines)
+uint32_t chooseSlots(const PhysicalDevice& device, const WaveSetup& setup)
 {
-    if (wanted == 0) wanted = device.kind == "software" ? SOFTWARE_SLOTS : HARDWARE_SLOTS;
+    const uint64_t fitting = device.kind == "software" ? SOFTWARE_SLOTS : HARDWARE_SLOTS;
+    const uint64_t wanted = setup.slots > 0 ? setup.slots : fitting;
     const VkPhysicalDeviceLimits& limits = device.properties.limits;
     const uint64_t range = std::min<uint64_t>(limits.maxStorageBufferRange, device.maxAllocationBytes);
-    const uint64_t largest = std::max<uint64_t>(sizeof(WavePath), pipelines.stackSize * sizeof(uint32_t));
-    const uint64_t invocations = uint64_t{limits.maxComputeWorkGroupCount[0]} * pipelines.groupSize;
-    return static_cast<uint32_t>(
-        std::min({uint64_t{wanted}, range / largest, invocations, uint64_t{MAX_WAVE_SLOTS}}));
+    const uint64_t largest = std::max<uint64_t>(WAVE_PATH_ROWS * ROW_BYTES, setup.stackSize * sizeof(uint32_t));
+    const uint64_t invocations = uint64_t{limits.maxComputeWorkGroupCount[0]} * setup.groupSize;
+    return static_cast<uint32_t>(std::min({wanted, range / largest, invocations, uint64_t{MAX_WAVE_SLOTS}}));
 }
 
 uint64_t saturatingSum(uint64_t a, uint64_t b)
@@ -34,30 +35,28 @@ uint64_t saturatingSum(uint64_t a, uint64_t b)
 
 }  // namespace
 
-WavePipelines makeWavePipelines(Context& context, const std::function<ComputePipeline(const char*, uint32_t)>& make,
-                                bool ballots, const std::array<uint32_t, 2>& group, uint32_t stackSize)
+VulkanWaves::VulkanWaves(Context& context, const WaveSetup& setup, const MakeWavePipeline& make, BoundedWork& work,
+                         DeviceStatistics& statistics)
+    : context_(context),
+      setup_(setup),
+      make_(make),
+      work_(work),
+      statistics_(statistics),
+      slotLimit_(chooseSlots(context.physical, setup))
 {
     PipelineRequest plan;
     plan.name = "wave_plan";
     std::vector<uint32_t> constants(SPEC_COUNT);
-    constants[SPEC_GROUP_WIDTH] = group[0];
-    constants[SPEC_GROUP_HEIGHT] = group[1];
+    constants[SPEC_GROUP_WIDTH] = setup.groupSize;
+    constants[SPEC_GROUP_HEIGHT] = 1;
     plan.spirv = foldedKernel(plan.name, constants);
     plan.bindings = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
     plan.pushConstantBytes = sizeof(WaveDispatch);
-    return {createComputePipeline(context, plan), make("wave_trace", BINDING_WAVE_STACKS + 1),
-            make(ballots ? "wave_shade" : "wave_shade_shared", BINDING_WAVE_HITS + 1),
-            make("wave_film", BINDING_WAVE_PIXELS + 1), group[0] * group[1], stackSize};
-}
-
-VulkanWaves::VulkanWaves(Context& context, WavePipelines pipelines, uint32_t slots, BoundedWork& work,
-                         DeviceStatistics& statistics)
-    : context_(context),
-      pipelines_(std::move(pipelines)),
-      slotLimit_(chooseSlots(context.physical, slots, pipelines_)),
-      work_(work),
-      statistics_(statistics)
-{
+    plan_ = createComputePipeline(context, plan);
+    begin_ = make("wave_begin", BINDING_WAVE_RAYS + 1, false);
+    trace_ = make("wave_trace", BINDING_WAVE_STACKS + 1, false);
+    shade_ = make(setup.ballots ? "wave_shade" : "wave_shade_shared", BINDING_WAVE_HITS + 1, false);
+    film_ = make("wave_film", BINDING_WAVE_PIXELS + 1, false);
 }
 
 void VulkanWaves::setScene(const VulkanScene& scene)
@@ -78,12 +77,12 @@ void VulkanWaves::prepareBuffers(size_t pixels)
     };
     buffers_.queues = make("queues", sizeof(WaveCounts) + 3 * uint64_t{slots} * sizeof(uint32_t), HostUse::readBack,
                            VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
-    buffers_.samples = make("samples", sampleCount * sizeof(WaveSample));
-    buffers_.paths = make("paths", uint64_t{slots} * sizeof(WavePath));
-    buffers_.rays = make("rays", 2 * uint64_t{slots} * sizeof(WaveRay));
-    buffers_.hits = make("hits", uint64_t{slots} * sizeof(WaveHit));
+    buffers_.samples = make("samples", sampleCount * WAVE_SAMPLE_ROWS * ROW_BYTES);
+    buffers_.paths = make("paths", uint64_t{slots} * WAVE_PATH_ROWS * ROW_BYTES);
+    buffers_.rays = make("rays", uint64_t{slots} * WAVE_RAY_ROWS * ROW_BYTES);
+    buffers_.hits = make("hits", uint64_t{slots} * WAVE_HIT_ROWS * ROW_BYTES);
     buffers_.walks = make("walks", uint64_t{slots} * sizeof(WaveWalk));
-    buffers_.stacks = make("stacks", uint64_t{slots} * pipelines_.stackSize * sizeof(uint32_t));
+    buffers_.stacks = make("stacks", uint64_t{slots} * setup_.stackSize * sizeof(uint32_t));
     buffers_.pixels = make("pixels", pixels * sizeof(PixelBlock), HostUse::readBack);
     buffers_.slots = slots;
     buffers_.pixelCount = pixels;
@@ -104,12 +103,13 @@ void VulkanWaves::bindAll()
     auto bind = [&](ComputePipeline& pipeline) {
         bindBuffers(context_, pipeline, std::span(all).first(pipeline.bindings.size()));
     };
-    bind(pipelines_.trace);
-    bind(pipelines_.shade);
+    bind(begin_);
+    bind(trace_);
+    bind(shade_);
     all[BINDING_WAVE_PIXELS] = &buffers_.pixels;
-    bind(pipelines_.film);
+    bind(film_);
     const Buffer* own[] = {&buffers_.queues};
-    bindBuffers(context_, pipelines_.plan, own);
+    bindBuffers(context_, plan_, own);
 }
 
 WaveDispatch VulkanWaves::jobOf(const TileRequest& tile) const
@@ -126,32 +126,38 @@ WaveDispatch VulkanWaves::jobOf(const TileRequest& tile) const
     return job;
 }
 
-void VulkanWaves::submitWaves(const WaveDispatch& job, uint32_t count, bool begin, bool clearFaults, bool end)
+/// Records and runs some waves; before them clears some of what was counted. `end`: the counts are read next.
+void VulkanWaves::submitWaves(const WaveDispatch& job, uint32_t count, Clear clear, bool end)
 {
     const std::span<const std::byte> constants = std::as_bytes(std::span(&job, 1));
-    const VkBuffer queues = buffers_.queues.handle.get();
+    const Buffer& queues = buffers_.queues;
+    constexpr uint64_t GROUPS = offsetof(WaveCounts, groups), BEGIN_GROUPS = offsetof(WaveCounts, beginGroups);
     runCommands(context_, name_, [&](VkCommandBuffer commands) {
-        if (begin) vkCmdFillBuffer(commands, queues, 0, sizeof(WaveCounts), 0);
-        if (clearFaults) vkCmdFillBuffer(commands, queues, offsetof(WaveCounts, faults), sizeof(uint32_t), 0);
-        if (begin || clearFaults) recordBarrier(commands, TRANSFER_WRITE, COMPUTE_USE);
+        if (clear == Clear::all) vkCmdFillBuffer(commands, queues.handle.get(), 0, sizeof(WaveCounts), 0);
+        if (clear == Clear::faults)
+            vkCmdFillBuffer(commands, queues.handle.get(), offsetof(WaveCounts, faults), sizeof(uint32_t), 0);
+        if (clear != Clear::nothing) recordBarrier(commands, TRANSFER_WRITE, COMPUTE_USE);
         for (uint32_t i = 0; i < count; i++) {
-            recordDispatch(commands, pipelines_.plan, constants, {1, 1, 1});
+            recordDispatch(commands, plan_, constants, {1, 1, 1});
             recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE_AND_COUNT);
-            recordIndirectDispatch(commands, pipelines_.trace, constants, buffers_.queues);
+            recordIndirectDispatch(commands, begin_, constants, queues, BEGIN_GROUPS);
             recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE_AND_COUNT);
-            recordIndirectDispatch(commands, pipelines_.shade, constants, buffers_.queues);
+            recordIndirectDispatch(commands, trace_, constants, queues, GROUPS);
+            recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE_AND_COUNT);
+            recordIndirectDispatch(commands, shade_, constants, queues, GROUPS);
             recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE);
         }
-        if (end) recordReadBack(commands, buffers_.queues, sizeof(WaveCounts));
+        if (end) recordReadBack(commands, queues, sizeof(WaveCounts));
     });
-    statistics_.dispatches += uint64_t{count} * 3;
+    statistics_.dispatches += uint64_t{count} * 4;
 }
 
 /// Runs so many waves and reads what they counted.
 RoundState VulkanWaves::runWaves(const WaveDispatch& job, uint32_t count, bool begin)
 {
     work_.runInParts(job.slotCount, count, [&](uint32_t part, bool isFirst, bool isLast) {
-        submitWaves(job, part, begin && isFirst, !begin && isFirst, isLast);
+        const Clear clear = begin ? Clear::all : Clear::faults;
+        submitWaves(job, part, isFirst ? clear : Clear::nothing, isLast);
     });
     readBuffer(buffers_.queues, std::as_writable_bytes(std::span(&counts_, 1)));
     RoundState state;
@@ -159,6 +165,15 @@ RoundState VulkanWaves::runWaves(const WaveDispatch& job, uint32_t count, bool b
     state.samplesMissing = static_cast<uint32_t>(uint64_t{job.pixelCount} * job.sampleCount - state.samplesDone);
     state.faults = counts_.faults;
     return state;
+}
+
+/// Goes on without walks that begin again and again.
+void VulkanWaves::saveLongWalks()
+{
+    if (traceResumes_) return;
+    trace_ = make_("wave_trace", BINDING_WAVE_STACKS + 1, true);
+    traceResumes_ = true;
+    bindAll();
 }
 
 void VulkanWaves::finishWaves(const BoundedTask& task, const WaveDispatch& ofTile)
@@ -172,6 +187,7 @@ void VulkanWaves::finishWaves(const BoundedTask& task, const WaveDispatch& ofTil
         const RoundState state = runWaves(job, waves, begin);
         work_.noteRound(task, done, state, uint64_t{waves} * job.stepBudget);
         if (state.samplesMissing == 0) break;
+        if (counts_.resumedWaves > 0) saveLongWalks();
         done = state.samplesDone;
         job.stepBudget = statistics_.stepBudget;
         waves = std::clamp(counts_.waves / 4, 4u, 100u);
@@ -183,11 +199,11 @@ void VulkanWaves::finishWaves(const BoundedTask& task, const WaveDispatch& ofTil
 /// Adds the samples of every pixel to its block.
 RoundState VulkanWaves::addToBlocks(const WaveDispatch& job, std::span<PixelBlock> blocks)
 {
-    const uint32_t groups = (job.pixelCount + pipelines_.groupSize - 1) / pipelines_.groupSize;
+    const uint32_t groups = (job.pixelCount + setup_.groupSize - 1) / setup_.groupSize;
     runCommands(context_, name_, [&](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, buffers_.pixels.handle.get(), 0, blocks.size_bytes(), 0);
         recordBarrier(commands, TRANSFER_WRITE, COMPUTE_USE);
-        recordDispatch(commands, pipelines_.film, std::as_bytes(std::span(&job, 1)), {groups, 1, 1});
+        recordDispatch(commands, film_, std::as_bytes(std::span(&job, 1)), {groups, 1, 1});
         recordReadBack(commands, buffers_.pixels, blocks.size_bytes());
     });
     statistics_.dispatches++;
@@ -210,8 +226,8 @@ void VulkanWaves::render(const std::string& name, const TileRequest& tile, std::
     const WaveDispatch job = jobOf(tile);
     // A wave takes a path one ray further at most, however few steps that takes.
     const uint64_t oneEach = scene_->turnsPerSample * job.stepBudget;
-    finishWaves({name, saturatingSum(scene_->stepsPerSample, oneEach), pipelines_.stackSize}, job);
-    work_.finish({name, 1, pipelines_.stackSize}, addToBlocks(job, blocks),
+    finishWaves({name, saturatingSum(scene_->stepsPerSample, oneEach), setup_.stackSize}, job);
+    work_.finish({name, 1, setup_.stackSize}, addToBlocks(job, blocks),
                  [&](uint32_t) { return addToBlocks(job, blocks); });
 }
 

@@ -9,27 +9,24 @@
 
 namespace sahl {
 
-struct WavePipelines {
-    ComputePipeline plan;    ///< kernels/wave_plan.comp
-    ComputePipeline trace;   ///< kernels/wave_trace.comp, for the scene and stack in force, like the next two
-    ComputePipeline shade;   ///< kernels/wave_shade.comp
-    ComputePipeline film;    ///< kernels/wave_film.comp
-    uint32_t groupSize = 0;  ///< invocations of a workgroup
-    uint32_t stackSize = 0;
-};
-
-/// `make`: the pipeline of a kernel for the scene and stack in force, with so many bindings.
-WavePipelines makeWavePipelines(Context& context, const std::function<ComputePipeline(const char*, uint32_t)>& make,
-                                bool ballots, const std::array<uint32_t, 2>& group, uint32_t stackSize);
-
 /// Storage buffers that a kernel of waves binds, besides those of the scene.
 constexpr uint32_t WAVE_STORAGE_BUFFERS = 7;
+
+struct WaveSetup {
+    bool ballots = false;    ///< queues are filled by them, else by shared memory
+    uint32_t groupSize = 0;  ///< invocations of a workgroup
+    uint32_t stackSize = 0;
+    uint32_t slots = 0;      ///< paths under way at a time; 0: as many as suit the device
+};
+
+/// Makes the pipeline of a kernel for the scene and stack in force, with so many bindings and SPEC_WAVE_RESUMES.
+using MakeWavePipeline = std::function<ComputePipeline(const char* kernel, uint32_t bindings, bool resumes)>;
 
 /// Renders tiles of a scene.
 class VulkanWaves {
 public:
-    /// `slots`: paths under way at a time, 0 for as many as suit the device. The rest must outlive this.
-    VulkanWaves(Context& context, WavePipelines pipelines, uint32_t slots, BoundedWork& work,
+    /// `work` and `statistics` must outlive this, and what `make` refers to.
+    VulkanWaves(Context& context, const WaveSetup& setup, const MakeWavePipeline& make, BoundedWork& work,
                 DeviceStatistics& statistics);
 
     /// One that the pipelines are made for; must stay until the next or the end.
@@ -45,25 +42,31 @@ private:
         size_t pixelCount = 0;
     };
 
+    enum class Clear { nothing, faults, all };
+
     void prepareBuffers(size_t pixels);
     void bindAll();
     WaveDispatch jobOf(const TileRequest& tile) const;
-    void submitWaves(const WaveDispatch& job, uint32_t count, bool begin, bool clearFaults, bool end);
+    void submitWaves(const WaveDispatch& job, uint32_t count, Clear clear, bool end);
+    void saveLongWalks();
     RoundState runWaves(const WaveDispatch& job, uint32_t count, bool begin);
     void finishWaves(const BoundedTask& task, const WaveDispatch& job);
     RoundState addToBlocks(const WaveDispatch& job, std::span<PixelBlock> blocks);
 
     Context& context_;
-    WavePipelines pipelines_;
-    const VulkanScene* scene_ = nullptr;
-    uint32_t slotLimit_;
+    WaveSetup setup_;
+    MakeWavePipeline make_;
     BoundedWork& work_;
     DeviceStatistics& statistics_;
+    ComputePipeline plan_, begin_, trace_, shade_, film_;  // kernels/wave_*.comp
+    bool traceResumes_ = false;                            // trace_ saves walks that run out of steps
+    uint32_t slotLimit_;
+    const VulkanScene* scene_ = nullptr;
     Buffers buffers_;
-    bool bound_ = false;           // the pipelines' descriptor sets hold them and the scene
-    WaveCounts counts_ = {};       // as last read
-    std::string name_;             // of the tile under way
-    double wavesPerFilling_ = 2;   // that samples as many as the slots need, as last seen
+    bool bound_ = false;          // the pipelines' descriptor sets hold the buffers and the scene
+    WaveCounts counts_ = {};      // as last read
+    std::string name_;            // of the tile under way
+    double wavesPerFilling_ = 2;  // that samples as many as the slots need, as last seen
 };
 
 }  // namespace sahl

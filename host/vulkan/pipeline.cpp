@@ -166,10 +166,11 @@ void recordDispatch(VkCommandBuffer commands, const ComputePipeline& pipeline,
 }
 
 void recordIndirectDispatch(VkCommandBuffer commands, const ComputePipeline& pipeline,
-                            std::span<const std::byte> pushConstants, const Buffer& groups)
+                            std::span<const std::byte> pushConstants, const Buffer& groups,
+                            uint64_t offset)
 {
     recordState(commands, pipeline, pushConstants);
-    vkCmdDispatchIndirect(commands, groups.handle.get(), 0);
+    vkCmdDispatchIndirect(commands, groups.handle.get(), offset);
 }
 
 }  // namespace sahl

@@ -9,11 +9,8 @@
 #include "pathtrace/pathtrace.glsl"
 #include "shared/adaptive_types.h"
 #include "pathtrace/film_sums.glsl"
+#include "kernels/wave_samples.glsl"
 
-layout(std430, set = 0, binding = BINDING_WAVE_SAMPLES) readonly buffer WaveSamplesBlock
-{
-    WaveSample samples[];
-};
 layout(std430, set = 0, binding = BINDING_WAVE_PIXELS) writeonly buffer PixelsBlock
 {
     PixelBlock pixels[];
@@ -26,11 +23,8 @@ void main()
     PixelBlock block = emptyBlock();
     uint i = 0u;
     for (; i < job.sampleCount; i++) {
-        WaveSample done = samples[pixel * job.sampleCount + i];
         PathState path;
-        path.L = done.L;
-        path.digest = done.digest;
-        tally = Tally(done.indirectRays, done.shadowRays, done.boxTests, done.primitiveTests, done.bounces, done.clamped);
+        loadSample(pixel * job.sampleCount + i, path);
         addSample(path, block);
     }
     block.faults = i == job.sampleCount ? 0u : FAULT_LOOP_CUT;

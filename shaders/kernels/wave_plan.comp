@@ -14,9 +14,8 @@ void main()
     // The first samples of a tile have the slots of their own numbers.
     uint taken = counts.begunCount == 0u ? 0u : fresh;
     uint groupSize = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
-    counts.groups = (goOn + fresh + groupSize - 1u) / groupSize;
-    counts.one0 = 1u;
-    counts.one1 = 1u;
+    counts.groups = uvec4((goOn + fresh + groupSize - 1u) / groupSize, 1u, 1u, 0u);
+    counts.beginGroups = uvec4((fresh + groupSize - 1u) / groupSize, 1u, 1u, 0u);
     counts.entryCount = goOn + fresh;
     counts.freshCount = fresh;
     counts.begunCount += fresh;

@@ -1,5 +1,8 @@
-// Walks the rays of a wave, one an invocation, and lets its new samples begin. A walk that runs out of steps is saved and
-// goes on in the next wave. Where a fault was seen (a loop cut short by the driver) the walk is as it was before.
+// Walks the rays of a wave, one an invocation. Where a fault was seen (a loop cut short by the driver) the walk is as it
+// was before.
+//
+// With WAVE_RESUMES a walk that runs out of steps is saved and goes on in the next wave. Without, it begins again there,
+// in a kernel that saves it: some drivers run every branch, and few walks are ever that long.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -8,7 +11,9 @@
 #define WAVE_QUEUES_BINDING BINDING_WAVE_QUEUES
 #include "kernels/wave.glsl"
 #include "pathtrace/pathtrace.glsl"
+#include "kernels/wave_samples.glsl"
 #include "kernels/wave_paths.glsl"
+#include "kernels/wave_hits.glsl"
 
 layout(std430, set = 0, binding = BINDING_WAVE_WALKS) buffer WaveWalksBlock
 {
@@ -18,6 +23,8 @@ layout(std430, set = 0, binding = BINDING_WAVE_STACKS) buffer WaveStacksBlock
 {
     uint stacks[];
 };
+
+layout(constant_id = SPEC_WAVE_RESUMES) const bool WAVE_RESUMES = true;
 
 void suspendWalk(uint slot, Traversal walk)
 {
@@ -40,73 +47,43 @@ Traversal resumedWalk(uint slot)
     return walk;
 }
 
-/// Begins a sample of the tile; returns its entry. All samples of a pixel stand side by side, for their rays are much alike.
-uint beginSample(uint number)
-{
-    uint slot = number;
-    if (number >= job.slotCount) {
-        uint before = counts.begunCount - counts.freshCount;
-        slot = entries[freeSlotsAt() + counts.firstFree + (number - before)];
-    }
-    uint pixel = number / job.sampleCount;
-    uint sampleIndex = job.firstSample + number % job.sampleCount;
-    PathState path = beginPath(job.tileX + pixel % job.tileWidth, job.tileY + pixel / job.tileWidth, sampleIndex);
-    rays[2u * slot].org = path.org;
-    rays[2u * slot].dir = path.dir;
-    paths[slot] = WavePath(path.beta, path.depth, path.phase, path.pixel, sampleIndex, number, path.Ld, path.pdf,
-                           path.mediumEta, path.etaScale, path.probeChance, path.tableChance);
-    samples[number] = WaveSample(path.L, path.digest, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
-    return slot;
-}
-
 void main()
 {
     uint index = waveInvocation();
     if (index >= counts.entryCount) return;
     uint at = queueAt(counts.queue) + index;
-    uint goOn = counts.entryCount - counts.freshCount;
-    uint entry;
-    if (index < goOn) {
-        entry = entries[at];
-    } else {
-        entry = beginSample(counts.begunCount - counts.entryCount + index);
-        entries[at] = entry;
-    }
+    uint entry = entries[at];
     if ((entry & ENTRY_OVER) != 0u) return;
 
     uint slot = entry & ENTRY_SLOT;
     bool shadow = HAS_SHADOW_RAYS && (entry & ENTRY_SHADOW) != 0u;
-    uint ray = 2u * slot + (shadow ? 1u : 0u);
-    vec3 org = rays[ray].org;
-    vec3 dir = rays[ray].dir;
-    float tMax = RAY_INFINITY;
-    if (shadow) tMax = rays[ray].tMax;
+    uint ray = slot * WAVE_RAY_ROWS + (shadow ? 2u : 0u);
+    uvec4 row = rays[ray];
+    vec3 org = vectorIn(row);
+    vec3 dir = vectorIn(rays[ray + 1u]);
+    float tMax = shadow ? uintBitsToFloat(row.w) : RAY_INFINITY;
 
     stepsLeft = job.stepBudget;
     faults = 0u;
     tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
     Traversal walk = beginTraversal(tMax);
-    if ((entry & ENTRY_BEGUN) != 0u) walk = resumedWalk(slot);
+    if (WAVE_RESUMES && (entry & ENTRY_BEGUN) != 0u) walk = resumedWalk(slot);
     bool over = traverse(org, dir, shadow, walk);
     if (!over && faults == 0u) {
-        suspendWalk(slot, walk);
         atomicAdd(counts.outOfSteps, 1u);
-        // Half saved is as good as lost: the walk begins again.
-        entries[at] = faults == 0u ? entry | ENTRY_BEGUN : entry & ~ENTRY_BEGUN;
+        if (WAVE_RESUMES) {
+            suspendWalk(slot, walk);
+            // Half saved is as good as lost: the walk begins again.
+            entries[at] = faults == 0u ? entry | ENTRY_BEGUN : entry & ~ENTRY_BEGUN;
+        }
     }
     if (faults != 0u) {
         atomicOr(counts.faults, faults);
         return;
     }
     if (!over) return;
-    uint place = paths[slot].place;
-    samples[place].boxTests += tally.boxTests;
-    samples[place].primitiveTests += tally.primitiveTests;
+    storeHit(slot, shadow, walk);
     entry = (entry & ~ENTRY_BEGUN) | ENTRY_OVER;
-    if (shadow) {
-        if (walk.slot != NO_HIT) entry |= ENTRY_BLOCKED;
-    } else {
-        hits[slot] = WaveHit(walk.slot, walk.number, walk.tHit, walk.b1, walk.b2, walk.instance, 0u, 0u);
-    }
+    if (shadow && walk.slot != NO_HIT) entry |= ENTRY_BLOCKED;
     entries[at] = entry;
 }

@@ -22,9 +22,8 @@ SHARED_CONST uint MAX_WAVE_SLOTS = 0x00ffffffu;
 // free again; each has room for all slots.
 struct WaveCounts
 {
-    uint groups;        // workgroups of this wave: with the next two as vkCmdDispatchIndirect reads them
-    uint one0;
-    uint one1;
+    uvec4 groups;       // workgroups of this wave, as vkCmdDispatchIndirect reads their first three words
+    uvec4 beginGroups;  // of wave_begin
     uint entryCount;    // paths in this wave
     uint freshCount;    // of these, that begin; they stand behind the others
     uint begunCount;    // samples of the tile that have begun, those included
@@ -37,69 +36,15 @@ struct WaveCounts
     uint resumedWaves;  // waves with such walks, since the tile began
     uint waves;         // with paths in them, since the tile began
     uint unused0;
-    uint unused1;
 };
-GPU_STRUCT_SIZE(WaveCounts, 64);
-GPU_FIELD(WaveCounts, nextCount, 32);
+GPU_STRUCT_SIZE(WaveCounts, 80);
+GPU_FIELD(WaveCounts, nextCount, 52);
 
-// A path between two kernels; its rays, its hit and what it has gathered are apart.
-struct WavePath
-{
-    vec3 beta;          // as in PathState, down to tableChance
-    uint depth;
-    uint phase;
-    uint pixel;
-    uint sampleIndex;
-    uint place;         // of the sample in `samples`
-    vec3 Ld;
-    float pdf;
-    float mediumEta;
-    float etaScale;
-    float probeChance;
-    float tableChance;
-};
-GPU_STRUCT_SIZE(WavePath, 64);
-GPU_FIELD(WavePath, Ld, 32);
-
-// A ray of a path: two a slot, first the one that continues it, then its shadow ray.
-struct WaveRay
-{
-    vec3 org;     // [m]
-    float tMax;   // of shadow rays [m]
-    vec3 dir;     // unit
-    uint unused0;
-};
-GPU_STRUCT_SIZE(WaveRay, 32);
-
-// What the ray that continues a path has met: fields of Traversal.
-struct WaveHit
-{
-    uint slot;
-    uint number;
-    float tHit;
-    float b1;
-    float b2;
-    uint instance;
-    uint unused0;
-    uint unused1;
-};
-GPU_STRUCT_SIZE(WaveHit, 32);
-
-// A sample: light and work so far.
-struct WaveSample
-{
-    vec3 L;
-    uint digest;
-    uint indirectRays;
-    uint shadowRays;
-    uint boxTests;
-    uint primitiveTests;
-    uint bounces;
-    uint clamped;
-    uint unused0;
-    uint unused1;
-};
-GPU_STRUCT_SIZE(WaveSample, 48);
+// Rows of 16 bytes: what there is of a slot, and of a sample of the tile. kernels/wave_paths.glsl says what they hold.
+SHARED_CONST uint WAVE_PATH_ROWS = 4u;
+SHARED_CONST uint WAVE_RAY_ROWS = 4u;
+SHARED_CONST uint WAVE_HIT_ROWS = 2u;
+SHARED_CONST uint WAVE_SAMPLE_ROWS = 3u;
 
 // A walk that ran out of steps. Its stack lies apart, as large as the kernel's.
 struct WaveWalk
