@@ -40,8 +40,9 @@ std::vector<Candidate> makeCandidates(const VulkanDeviceInfo& info, const Prepar
         options.variant = nameOf(variant);
         std::unique_ptr<Device> device = makeVulkanDevice(info.index, options);
         device->setScene(scene.deviceScene());
-        // Where texel buffers hold too little the variant is another one in truth.
-        if (device->statistics().texelBuffers == variant.texelBuffers)
+        // Where texel buffers hold too little, or the device lacks what waves need, the variant is another one in truth.
+        const DeviceStatistics made = device->statistics();
+        if (made.texelBuffers == variant.texelBuffers && made.variant == options.variant)
             candidates.push_back({variant, std::move(device), {}});
     }
     return candidates;
@@ -74,7 +75,7 @@ void tune(const VulkanDeviceInfo& info, const PreparedScene& scene)
     const Candidate& best = *std::max_element(candidates.begin(), candidates.end(), slower);
     const Variant standard = standardVariant();
     for (const Candidate& candidate : candidates)
-        answer("   {:<18} {:7.3f} Msamples/s{}{}\n", nameOf(candidate.variant),
+        answer("   {:<20} {:7.3f} Msamples/s{}{}\n", nameOf(candidate.variant),
                samplesPerSecond(candidate) * 1e-6,
                candidate.variant == standard ? "  standard" : "",
                &candidate == &best ? "  fastest" : "");

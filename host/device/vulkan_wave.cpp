@@ -22,21 +22,25 @@ uint32_t chooseSlots(const PhysicalDevice& device, const WaveSetup& setup)
     const uint64_t fitting = device.kind == "software" ? SOFTWARE_SLOTS : HARDWARE_SLOTS;
     const uint64_t wanted = setup.slots > 0 ? setup.slots : fitting;
     const VkPhysicalDeviceLimits& limits = device.properties.limits;
-    const uint64_t range = std::min<uint64_t>(limits.maxStorageBufferRange, device.maxAllocationBytes);
-    const uint64_t largest = std::max<uint64_t>(WAVE_PATH_ROWS * ROW_BYTES, setup.stackSize * sizeof(uint32_t));
+    const uint64_t range =
+        std::min<uint64_t>(limits.maxStorageBufferRange, device.maxAllocationBytes);
+    const uint64_t largest =
+        std::max<uint64_t>(WAVE_PATH_ROWS * ROW_BYTES, setup.stackSize * sizeof(uint32_t));
     const uint64_t invocations = uint64_t{limits.maxComputeWorkGroupCount[0]} * setup.groupSize;
-    return static_cast<uint32_t>(std::min({wanted, range / largest, invocations, uint64_t{MAX_WAVE_SLOTS}}));
+    return static_cast<uint32_t>(
+        std::min({wanted, range / largest, invocations, uint64_t{MAX_WAVE_SLOTS}}));
 }
 
 uint64_t saturatingSum(uint64_t a, uint64_t b)
 {
-    return a > std::numeric_limits<uint64_t>::max() - b ? std::numeric_limits<uint64_t>::max() : a + b;
+    return a > std::numeric_limits<uint64_t>::max() - b ? std::numeric_limits<uint64_t>::max()
+                                                        : a + b;
 }
 
 }  // namespace
 
-VulkanWaves::VulkanWaves(Context& context, const WaveSetup& setup, const MakeWavePipeline& make, BoundedWork& work,
-                         DeviceStatistics& statistics)
+VulkanWaves::VulkanWaves(Context& context, const WaveSetup& setup, const MakeWavePipeline& make,
+                         BoundedWork& work, DeviceStatistics& statistics)
     : context_(context),
       setup_(setup),
       make_(make),
@@ -72,11 +76,13 @@ void VulkanWaves::prepareBuffers(size_t pixels)
     if (buffers_.slots >= slots && buffers_.pixelCount >= pixels) return;
     buffers_ = {};
     bound_ = false;
-    auto make = [&](const char* name, uint64_t bytes, HostUse use = HostUse::none, VkBufferUsageFlags more = 0) {
-        return createBuffer(context_, {name, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | more, use});
+    auto make = [&](const char* name, uint64_t bytes, HostUse use = HostUse::none,
+                    VkBufferUsageFlags more = 0) {
+        return createBuffer(context_,
+                            {name, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | more, use});
     };
-    buffers_.queues = make("queues", sizeof(WaveCounts) + 3 * uint64_t{slots} * sizeof(uint32_t), HostUse::readBack,
-                           VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+    buffers_.queues = make("queues", sizeof(WaveCounts) + 3 * uint64_t{slots} * sizeof(uint32_t),
+                           HostUse::readBack, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
     buffers_.samples = make("samples", sampleCount * WAVE_SAMPLE_ROWS * ROW_BYTES);
     buffers_.paths = make("paths", uint64_t{slots} * WAVE_PATH_ROWS * ROW_BYTES);
     buffers_.rays = make("rays", uint64_t{slots} * WAVE_RAY_ROWS * ROW_BYTES);
@@ -126,16 +132,20 @@ WaveDispatch VulkanWaves::jobOf(const TileRequest& tile) const
     return job;
 }
 
-/// Records and runs some waves; before them clears some of what was counted. `end`: the counts are read next.
+/// Records and runs some waves; before them clears some of what was counted. `end`: the counts are
+/// read next.
 void VulkanWaves::submitWaves(const WaveDispatch& job, uint32_t count, Clear clear, bool end)
 {
     const std::span<const std::byte> constants = std::as_bytes(std::span(&job, 1));
     const Buffer& queues = buffers_.queues;
-    constexpr uint64_t GROUPS = offsetof(WaveCounts, groups), BEGIN_GROUPS = offsetof(WaveCounts, beginGroups);
+    constexpr uint64_t GROUPS = offsetof(WaveCounts, groups),
+                       BEGIN_GROUPS = offsetof(WaveCounts, beginGroups);
     runCommands(context_, name_, [&](VkCommandBuffer commands) {
-        if (clear == Clear::all) vkCmdFillBuffer(commands, queues.handle.get(), 0, sizeof(WaveCounts), 0);
+        if (clear == Clear::all)
+            vkCmdFillBuffer(commands, queues.handle.get(), 0, sizeof(WaveCounts), 0);
         if (clear == Clear::faults)
-            vkCmdFillBuffer(commands, queues.handle.get(), offsetof(WaveCounts, faults), sizeof(uint32_t), 0);
+            vkCmdFillBuffer(commands, queues.handle.get(), offsetof(WaveCounts, faults),
+                            sizeof(uint32_t), 0);
         if (clear != Clear::nothing) recordBarrier(commands, TRANSFER_WRITE, COMPUTE_USE);
         for (uint32_t i = 0; i < count; i++) {
             recordDispatch(commands, plan_, constants, {1, 1, 1});
@@ -162,7 +172,8 @@ RoundState VulkanWaves::runWaves(const WaveDispatch& job, uint32_t count, bool b
     readBuffer(buffers_.queues, std::as_writable_bytes(std::span(&counts_, 1)));
     RoundState state;
     state.samplesDone = counts_.begunCount - counts_.nextCount;
-    state.samplesMissing = static_cast<uint32_t>(uint64_t{job.pixelCount} * job.sampleCount - state.samplesDone);
+    state.samplesMissing =
+        static_cast<uint32_t>(uint64_t{job.pixelCount} * job.sampleCount - state.samplesDone);
     state.faults = counts_.faults;
     return state;
 }
@@ -217,7 +228,8 @@ RoundState VulkanWaves::addToBlocks(const WaveDispatch& job, std::span<PixelBloc
     return state;
 }
 
-void VulkanWaves::render(const std::string& name, const TileRequest& tile, std::span<PixelBlock> blocks)
+void VulkanWaves::render(const std::string& name, const TileRequest& tile,
+                         std::span<PixelBlock> blocks)
 {
     name_ = name;
     prepareBuffers(blocks.size());

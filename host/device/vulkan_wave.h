@@ -1,5 +1,6 @@
-// Paths in waves on Vulkan: short kernels that take all paths under way one ray further, in place of one kernel that takes
-// each path to its end (shared/wave_types.h). The host sends off many waves at a time and looks at one count after them.
+// Paths in waves on Vulkan: short kernels that take all paths under way one ray further, in place
+// of one kernel that takes each path to its end (shared/wave_types.h). The host sends off many
+// waves at a time and looks at one count after them.
 #pragma once
 
 #include "device/bounded_work.h"
@@ -16,18 +17,20 @@ struct WaveSetup {
     bool ballots = false;    ///< queues are filled by them, else by shared memory
     uint32_t groupSize = 0;  ///< invocations of a workgroup
     uint32_t stackSize = 0;
-    uint32_t slots = 0;      ///< paths under way at a time; 0: as many as suit the device
+    uint32_t slots = 0;  ///< paths under way at a time; 0: as many as suit the device
 };
 
-/// Makes the pipeline of a kernel for the scene and stack in force, with so many bindings and SPEC_WAVE_RESUMES.
-using MakeWavePipeline = std::function<ComputePipeline(const char* kernel, uint32_t bindings, bool resumes)>;
+/// Makes the pipeline of a kernel for the scene and stack in force, with so many bindings and
+/// SPEC_WAVE_RESUMES.
+using MakeWavePipeline =
+    std::function<ComputePipeline(const char* kernel, uint32_t bindings, bool resumes)>;
 
 /// Renders tiles of a scene.
 class VulkanWaves {
 public:
     /// `work` and `statistics` must outlive this, and what `make` refers to.
-    VulkanWaves(Context& context, const WaveSetup& setup, const MakeWavePipeline& make, BoundedWork& work,
-                DeviceStatistics& statistics);
+    VulkanWaves(Context& context, const WaveSetup& setup, const MakeWavePipeline& make,
+                BoundedWork& work, DeviceStatistics& statistics);
 
     /// One that the pipelines are made for; must stay until the next or the end.
     void setScene(const VulkanScene& scene);
@@ -59,7 +62,7 @@ private:
     BoundedWork& work_;
     DeviceStatistics& statistics_;
     ComputePipeline plan_, begin_, trace_, shade_, film_;  // kernels/wave_*.comp
-    bool traceResumes_ = false;                            // trace_ saves walks that run out of steps
+    bool traceResumes_ = false;  // trace_ saves walks that run out of steps
     uint32_t slotLimit_;
     const VulkanScene* scene_ = nullptr;
     Buffers buffers_;

@@ -37,12 +37,18 @@ uint wordOfProgress(PathState path)
     return path.depth | path.phase << DEPTH_BITS | (path.sampleIndex - job.firstSample) << (DEPTH_BITS + 3u);
 }
 
+void storeMedium(uint slot, uint place, PathState path)
+{
+    paths[slot * WAVE_PATH_ROWS + 1u] =
+        uvec4(path.pixel, place, floatBitsToUint(path.mediumEta), floatBitsToUint(path.etaScale));
+}
+
 /// Stores what a step changes.
 void storePath(uint slot, uint place, PathState path)
 {
     uint at = slot * WAVE_PATH_ROWS;
     paths[at] = rowOf(path.beta, wordOfProgress(path));
-    if (HAS_MEDIA) paths[at + 1u] = uvec4(path.pixel, place, floatBitsToUint(path.mediumEta), floatBitsToUint(path.etaScale));
+    if (HAS_MEDIA) storeMedium(slot, place, path);
     if (HAS_SHADOW_RAYS) {
         paths[at + 2u] = rowOf(path.Ld, floatBitsToUint(path.pdf));
         paths[at + 3u] = uvec4(floatBitsToUint(path.probeChance), floatBitsToUint(path.tableChance), 0u, 0u);
@@ -53,8 +59,7 @@ void storePath(uint slot, uint place, PathState path)
 void storeNewPath(uint slot, uint place, PathState path)
 {
     storePath(slot, place, path);
-    if (!HAS_MEDIA)
-        paths[slot * WAVE_PATH_ROWS + 1u] = uvec4(path.pixel, place, floatBitsToUint(path.mediumEta), floatBitsToUint(path.etaScale));
+    if (!HAS_MEDIA) storeMedium(slot, place, path);
 }
 
 /// A path without what its sample has gathered, and the place of that.

@@ -1,8 +1,9 @@
 // Paths in waves: what a kernel leaves in memory for the next one.
 //
 // The samples of a tile are numbered, all of a pixel in a row. A sample under way has one of a fixed number of places,
-// its slot. A wave takes every path under way one ray further: wave_plan decides how many samples begin, wave_trace
-// walks the rays, wave_shade does what happens where they end and puts those that go on into the queue of the next wave.
+// its slot. A wave takes every path under way one ray further: wave_plan decides how many samples begin, wave_begin gives
+// them their camera rays, wave_trace walks the rays, wave_shade does what happens where they end and puts those that go
+// on into the queue of the next wave (docs/variants.md).
 #ifndef SAHL_WAVE_TYPES_H
 #define SAHL_WAVE_TYPES_H
 

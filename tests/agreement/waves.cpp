@@ -22,15 +22,18 @@ protected:
 
     static PreparedScene load(const std::string& file)
     {
-        return prepareScene(loadScene(sourceFolder() / "tests/scenes" / file, smallPicture(WIDTH, HEIGHT, SPP)),
-                            BvhBuild::sweep, 2);
+        return prepareScene(
+            loadScene(sourceFolder() / "tests/scenes" / file, smallPicture(WIDTH, HEIGHT, SPP)),
+            BvhBuild::sweep, 2);
     }
 
     /// Renders on a device in waves, which must give what the CPU gives.
-    static DeviceStatistics expectReference(const DeviceOptions& options, const PreparedScene& scene)
+    static DeviceStatistics expectReference(const DeviceOptions& options,
+                                            const PreparedScene& scene)
     {
         auto device = openFirstDevice(options);
-        EXPECT_TRUE(renderFilm(*device, scene) == renderFilm(*makeCpuDevice({}), scene)) << options.variant;
+        EXPECT_TRUE(renderFilm(*device, scene) == renderFilm(*makeCpuDevice({}), scene))
+            << options.variant;
         EXPECT_NE(device->statistics().variant.find("-wave"), std::string::npos);
         return device->statistics();
     }
@@ -69,7 +72,8 @@ TEST_F(Waves, withAPartialBlockAndTilesOfAllSizes_haveTheSameBits)
     auto cpu = makeCpuDevice({});
     for (uint32_t spp : {1u, 13u}) {
         const Film expected = renderFilm(*cpu, builtIn(), 0, spp);
-        for (uint32_t tile : {0u, 7u}) EXPECT_TRUE(renderFilm(*device, builtIn(), 0, spp, tile) == expected) << spp;
+        for (uint32_t tile : {0u, 7u})
+            EXPECT_TRUE(renderFilm(*device, builtIn(), 0, spp, tile) == expected) << spp;
     }
 }
 
@@ -79,7 +83,8 @@ TEST_F(Waves, inWhichWalksRunOutOfSteps_goOn)
     options.stepBudget = 3;
     EXPECT_GT(expectReference(options, builtIn()).resumptions, 0u);
     options.waveSlots = 99;
-    EXPECT_GT(expectReference(options, load("instances.json")).resumptions, 0u) << "inside instances";
+    EXPECT_GT(expectReference(options, load("instances.json")).resumptions, 0u)
+        << "inside instances";
 }
 
 TEST_F(Waves, ofThePhongIntegrator_haveTheSameBits)
@@ -136,7 +141,9 @@ TEST_F(Waves, inWhichTheDriverCutsAWalk_lowerTheStepsUntilItDoesNot)
 TEST_F(Waves, onADeviceThatBindsFewBuffers_giveWayToWholePaths)
 {
     VulkanHooks hooks;
-    hooks.changeProperties = [](VkPhysicalDeviceProperties& p) { p.limits.maxPerStageDescriptorStorageBuffers = 6; };
+    hooks.changeProperties = [](VkPhysicalDeviceProperties& p) {
+        p.limits.maxPerStageDescriptorStorageBuffers = 6;
+    };
     auto device = openFirstDevice(inWaves());
     EXPECT_TRUE(renderFilm(*device, builtIn()) == renderFilm(*makeCpuDevice({}), builtIn()));
     EXPECT_EQ(device->statistics().variant.find("-wave"), std::string::npos);
