@@ -32,7 +32,7 @@ void suspendWalk(uint slot, Traversal walk)
     walks[slot].boxTests = tally.boxTests;
     walks[slot].primitiveTests = tally.primitiveTests;
     uint i = 0u;
-    for (; i < walk.stackSize; i++) stacks[slot * STACK_SIZE + i] = stack[i];
+    for (; i < walk.stackSize; i++) stacks[slot * STACK_SIZE + i] = stackEntry(i);
     if (i != walk.stackSize) faults |= FAULT_LOOP_CUT;
 }
 
@@ -42,7 +42,7 @@ Traversal resumedWalk(uint slot)
     tally.boxTests = walks[slot].boxTests;
     tally.primitiveTests = walks[slot].primitiveTests;
     uint i = 0u;
-    for (; i < walk.stackSize; i++) stack[i] = stacks[slot * STACK_SIZE + i];
+    for (; i < walk.stackSize; i++) setStackEntry(i, stacks[slot * STACK_SIZE + i]);
     if (i != walk.stackSize) faults |= FAULT_LOOP_CUT;
     return walk;
 }

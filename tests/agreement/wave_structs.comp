@@ -25,7 +25,7 @@ void main()
     put(c.freeCount); put(c.faults); put(c.outOfSteps); put(c.resumedWaves); put(c.waves); put(c.unused0);
     Traversal w = walks[1].traversal;
     put(w.ref); put(w.stackSize); put(w.slot); put(w.number); put(w.tHit); put(w.b1); put(w.b2);
-    put(w.inside); put(w.instance); put(w.unused0); put(w.unused1); put(w.unused2);
+    put(w.inside); put(w.instance); put(w.group); put(w.unused0); put(w.unused1);
     put(walks[1].boxTests); put(walks[1].primitiveTests); put(walks[1].unused0); put(walks[1].unused1);
     put(job.tileX); put(job.tileY); put(job.tileWidth); put(job.pixelCount);
     put(job.firstSample); put(job.sampleCount); put(job.stepBudget); put(job.slotCount);

@@ -48,7 +48,7 @@ protected:
 
 TEST_F(Waves, ofFewSlots_takeAllSamplesThroughThem)
 {
-    for (const char* variant : {"texel-wave", "storage-wave-shared"}) {
+    for (const char* variant : {"texel-wave-registers", "storage-wave-shared"}) {
         DeviceOptions options = inWaves(variant);
         options.waveSlots = 137;
         const DeviceStatistics statistics = expectReference(options, builtIn());
@@ -82,6 +82,7 @@ TEST_F(Waves, inWhichWalksRunOutOfSteps_goOn)
     DeviceOptions options = inWaves();
     options.stepBudget = 3;
     EXPECT_GT(expectReference(options, builtIn()).resumptions, 0u);
+    options.variant = "texel-wave-registers";
     options.waveSlots = 99;
     EXPECT_GT(expectReference(options, load("instances.json")).resumptions, 0u)
         << "inside instances";
