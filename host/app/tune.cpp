@@ -40,8 +40,9 @@ std::vector<Candidate> makeCandidates(const VulkanDeviceInfo& info, const Prepar
         options.variant = nameOf(variant);
         std::unique_ptr<Device> device = makeVulkanDevice(info.index, options);
         device->setScene(scene.deviceScene());
-        // Where texel buffers hold too little the variant is another one in truth.
-        if (device->statistics().texelBuffers == variant.texelBuffers)
+        // Where texel buffers hold too little, or the device lacks what waves need, the variant is another one in truth.
+        const DeviceStatistics made = device->statistics();
+        if (made.texelBuffers == variant.texelBuffers && made.variant == options.variant)
             candidates.push_back({variant, std::move(device), {}});
     }
     return candidates;

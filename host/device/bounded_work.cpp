@@ -30,25 +30,36 @@ BoundedWork::BoundedWork(const PhysicalDevice& device, uint32_t stepBudget,
 void BoundedWork::finish(const BoundedTask& task, RoundState state,
                          const std::function<RoundState(uint32_t samples)>& runRound)
 {
-    uint64_t idleSteps = 0;  // offered since the last sample was finished
-    cutRounds_ = 0;
+    beginRounds();
+    if (state.samplesMissing > 0 && state.faults != 0) handleFaults(task, state.faults);
     while (state.samplesMissing > 0) {
-        if (state.faults != 0) handleFaults(task, state.faults);
         uint64_t before = state.samplesDone;
         uint64_t dispatches = statistics_.dispatches;
         state = runRound(state.samplesMissing);
         dispatches = statistics_.dispatches - dispatches;
         statistics_.resumptions += dispatches;
-        if (state.samplesDone > before) cutRounds_ = 0;
-        bool progress = state.samplesDone > before || state.faults != 0;
-        idleSteps = progress ? 0 : idleSteps + dispatches * statistics_.stepBudget;
-        if (idleSteps > task.stepsPerSample + statistics_.stepBudget)
-            throw Error(ErrorKind::deviceLost,
-                        fmt::format("{}: '{}' makes no progress: {} steps for each path and none "
-                                    "ended, though {} are enough for any; the driver does not "
-                                    "compute what it was given, try --device cpu",
-                                    task.name, device_, idleSteps, task.stepsPerSample));
+        noteRound(task, before, state, dispatches * statistics_.stepBudget);
     }
+}
+
+void BoundedWork::beginRounds()
+{
+    cutRounds_ = 0;
+    idleSteps_ = 0;
+}
+
+void BoundedWork::noteRound(const BoundedTask& task, uint64_t doneBefore, const RoundState& state, uint64_t steps)
+{
+    if (state.samplesDone > doneBefore) cutRounds_ = 0;
+    bool progress = state.samplesDone > doneBefore || state.faults != 0;
+    idleSteps_ = progress ? 0 : idleSteps_ + steps;
+    if (idleSteps_ > task.stepsPerSample && idleSteps_ - task.stepsPerSample > statistics_.stepBudget)
+        throw Error(ErrorKind::deviceLost,
+                    fmt::format("{}: '{}' makes no progress: {} steps for each path and none "
+                                "ended, though {} are enough for any; the driver does not "
+                                "compute what it was given, try --device cpu",
+                                task.name, device_, idleSteps_, task.stepsPerSample));
+    if (state.samplesMissing > 0 && state.faults != 0) handleFaults(task, state.faults);
 }
 
 /// Counts a retry and halves the step budget. Throws deviceLost when that does not help any more.

@@ -36,6 +36,11 @@ public:
     void finish(const BoundedTask& task, RoundState state,
                 const std::function<RoundState(uint32_t samples)>& runRound);
 
+    /// For who runs rounds alone: before the first of them, and after each with the samples that were done before it
+    /// and the steps that it gave every path under way. Lowers the step budget and throws as finish() does.
+    void beginRounds();
+    void noteRound(const BoundedTask& task, uint64_t doneBefore, const RoundState& state, uint64_t steps);
+
     /// Calls submit(n, isFirst, isLast) so that the n add up to `samples` and no call takes much longer
     /// than a watchdog would stand.
     void runInParts(uint64_t pixels, uint32_t samples,
@@ -50,6 +55,7 @@ private:
     double submissionSeconds_;    // aimed at
     double secondsPerPixel_ = 0;  // of one sample, as last measured; 0 before the first
     uint32_t cutRounds_ = 0;      // in a row, at the smallest step budget
+    uint64_t idleSteps_ = 0;      // offered since the last sample was finished
 };
 
 }  // namespace sahl

@@ -173,6 +173,7 @@ struct DeviceOptions {
     std::string variant;                      ///< of variants.h; empty: as was tuned, else by the driver
     uint32_t groupWidth = 0, groupHeight = 0;  ///< 0: by the variant
     uint32_t stepBudget = 0;           ///< 0: by the driver; steps one invocation takes a dispatch
+    uint32_t waveSlots = 0;            ///< 0: by the driver; paths under way at a time, where they go in waves
     bool validation = false;           ///< Khronos validation with synchronization checks, if installed
 };
 

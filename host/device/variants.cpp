@@ -45,19 +45,26 @@ std::optional<Variant> findVariant(const std::string& name)
 
 std::string nameOf(const Variant& variant)
 {
-    return fmt::format("{}-{}x{}-by{}{}", variant.texelBuffers ? "texel" : "storage",
-                       variant.groupWidth, variant.groupHeight, variant.samplesAtOnce,
-                       variant.stackInRegisters ? "-registers" : "");
+    std::string name = variant.texelBuffers ? "texel" : "storage";
+    if (variant.paths == Variant::Paths::whole)
+        name += fmt::format("-{}x{}-by{}", variant.groupWidth, variant.groupHeight, variant.samplesAtOnce);
+    else
+        name += variant.paths == Variant::Paths::waves ? "-wave" : "-wave-shared";
+    return name + (variant.stackInRegisters ? "-registers" : "");
 }
 
 std::vector<Variant> allVariants()
 {
     std::vector<Variant> all;
-    for (bool texel : {true, false})
+    for (bool texel : {true, false}) {
         for (uint32_t width : {8u, 16u})
             for (uint32_t samples : {1u, BLOCK_SIZE})
                 for (bool registers : {false, true})
-                    all.push_back({texel, width, 8, samples, registers});
+                    all.push_back({texel, width, 8, samples, registers, Variant::Paths::whole});
+        for (bool registers : {false, true})
+            all.push_back({texel, 64, 1, BLOCK_SIZE, registers, Variant::Paths::waves});
+        all.push_back({texel, 64, 1, BLOCK_SIZE, false, Variant::Paths::sharedWaves});
+    }
     return all;
 }
 
@@ -78,7 +85,7 @@ Variant standardVariant(const std::string& driver)
     // The stack in registers: lavapipe 22.3 1.1 to 1.5 times as fast, 25.0 1.0 to 1.1;
     // SwiftShader 0.8; other drivers are not measured.
     const bool registers = driver.starts_with("llvmpipe");
-    return {true, 8, 8, BLOCK_SIZE, registers};
+    return {true, 8, 8, BLOCK_SIZE, registers, Variant::Paths::whole};
 }
 
 std::string tuningFile()

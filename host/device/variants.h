@@ -12,11 +12,16 @@ struct Variant {
     uint32_t groupWidth = 8, groupHeight = 8;
     uint32_t samplesAtOnce = 0;     ///< that a dispatch may take a pixel further
     bool stackInRegisters = false;  ///< wherever a wide tree is no higher than there are registers
+    enum class Paths {
+        whole,        ///< one kernel takes a path to its end
+        waves,        ///< kernels take all paths a ray further in turns; queues are filled by ballots
+        sharedWaves,  ///< the same, by shared memory
+    } paths = Paths::whole;
     bool operator==(const Variant&) const = default;
 };
 
 /// "texel-8x8-by8-registers": how the scene is read, shape of a workgroup, samples at once, and
-/// where the stack is if not in an array.
+/// where the stack is if not in an array. "texel-wave", "texel-wave-shared": paths in waves.
 std::string nameOf(const Variant& variant);
 
 /// All that `sahl devices --tune` tries and `--variant` takes.

@@ -8,6 +8,7 @@
 #include "device/vulkan_limits.h"
 #include "device/vulkan_scene.h"
 #include "device/vulkan_trace.h"
+#include "device/vulkan_wave.h"
 #include "device/walked_tree.h"
 #include "shared/bindings.h"
 #include "vulkan/pipeline.h"
@@ -76,11 +77,13 @@ public:
 
 private:
     ComputePipeline makePipeline(const std::string& kernel, uint32_t bindingCount,
-                                 uint32_t pushConstantBytes = sizeof(Dispatch)) const;
+                                 uint32_t pushConstantBytes = sizeof(Dispatch), bool waveResumes = false) const;
     void preparePipeline(bool texel, uint32_t features, const WalkForm& form);
     void prepareTileBuffers(size_t pixels);
     void prepareFirstHits(size_t pixels);
+    bool haveStorageBuffers(uint32_t ofKernel) const;
     void requireStorageBuffers(uint32_t ofKernel, const char* purpose) const;
+    void makePathPipelines();
     void bindAll(ComputePipeline& pipeline);
     void renderBlocks(const TileRequest& tile, std::span<PixelBlock> blocks);
     void requireTile(const TileRequest& tile, size_t blockCount) const;
@@ -108,6 +111,7 @@ private:
     bool bound_ = false;           // pipeline_'s descriptor set holds the buffers above
     bool firstHitsBound_ = false;  // likewise
     std::unique_ptr<AdaptivePipelines> adaptive_;  // made when first asked for
+    std::unique_ptr<VulkanWaves> waves_;           // where paths go in waves: in place of pipeline_
 };
 
 VulkanDevice::VulkanDevice(std::unique_ptr<Context> context, const DeviceOptions& options)
@@ -140,6 +144,7 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     statistics_.uploadSeconds += secondsSince(start);
     preparePipeline(uploaded->texel, featuresOf(scene), form);
     scene_ = std::move(uploaded);
+    if (waves_) waves_->setScene(*scene_);
     samplerKind_ = scene.frame.samplerKind;
     statistics_.sceneBytes = scene_->bytes;
     statistics_.texelBuffers = scene_->texel;
@@ -147,7 +152,7 @@ void VulkanDevice::setScene(const DeviceScene& scene)
 
 /// A pipeline of the kernel `kernel`_texel or `kernel`_storage, for the stack and buffers in force.
 ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t bindingCount,
-                                           uint32_t pushConstantBytes) const
+                                           uint32_t pushConstantBytes, bool waveResumes) const
 {
     PipelineRequest request;
     request.name = kernel + (pipelineTexel_ ? "_texel" : "_storage");
@@ -167,6 +172,7 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     constants[SPEC_ORDER] = options_.traversalOrder;
     constants[SPEC_EXACT_MATH] = statistics_.exactMath ? 1 : 0;
     constants[SPEC_FEATURES] = pipelineFeatures_;
+    constants[SPEC_WAVE_RESUMES] = waveResumes ? 1 : 0;
     request.spirv = foldedKernel(request.name, constants);
     return createComputePipeline(*context_, request);
 }
@@ -183,11 +189,34 @@ void VulkanDevice::preparePipeline(bool texel, uint32_t features, const WalkForm
     tracePipeline_ = {};
     adaptive_ = {};
     try {
-        pipeline_ = makePipeline("path", BINDING_COUNT);
+        makePathPipelines();
     } catch (...) {
         pipelineForm_ = {};
         throw;
     }
+}
+
+/// What takes paths to their ends, in the way of the variant; whole where the device binds too few buffers for waves.
+void VulkanDevice::makePathPipelines()
+{
+    pipeline_ = {};
+    bound_ = false;
+    waves_.reset();
+    Variant made = variant_;
+    if (!haveStorageBuffers(WAVE_STORAGE_BUFFERS)) made.paths = Variant::Paths::whole;
+    if (made.paths == Variant::Paths::waves && !context_->physical.subgroupBallots)
+        made.paths = Variant::Paths::sharedWaves;
+    statistics_.variant = nameOf(made);
+    if (made.paths == Variant::Paths::whole) {
+        pipeline_ = makePipeline("path", BINDING_COUNT);
+        return;
+    }
+    auto make = [this](const char* kernel, uint32_t bindings, bool resumes) {
+        return makePipeline(kernel, bindings, sizeof(WaveDispatch), resumes);
+    };
+    const bool ballots = made.paths == Variant::Paths::waves;
+    const WaveSetup setup = {ballots, group_[0] * group_[1], pipelineForm_.stackEntries, options_.waveSlots};
+    waves_ = std::make_unique<VulkanWaves>(*context_, setup, make, work_, statistics_);
 }
 
 void VulkanDevice::prepareTileBuffers(size_t pixels)
@@ -204,12 +233,19 @@ void VulkanDevice::prepareTileBuffers(size_t pixels)
     suspended_ = createBuffer(*context_, {"suspended", suspendedBytes, usage, HostUse::none});
 }
 
-/// Throws noDevice where a kernel cannot bind so many storage buffers besides those of the scene.
+/// Whether a kernel can bind so many storage buffers besides those of the scene.
+bool VulkanDevice::haveStorageBuffers(uint32_t ofKernel) const
+{
+    uint32_t storageBuffers = (pipelineTexel_ ? 0 : SCENE_BUFFER_COUNT - 1) + ofKernel;
+    return storageBuffers <= context_->physical.properties.limits.maxPerStageDescriptorStorageBuffers;
+}
+
+/// Throws noDevice where it cannot.
 void VulkanDevice::requireStorageBuffers(uint32_t ofKernel, const char* purpose) const
 {
     uint32_t storageBuffers = (pipelineTexel_ ? 0 : SCENE_BUFFER_COUNT - 1) + ofKernel;
     uint32_t allowed = context_->physical.properties.limits.maxPerStageDescriptorStorageBuffers;
-    if (storageBuffers > allowed)
+    if (!haveStorageBuffers(ofKernel))
         throw Error(ErrorKind::noDevice,
                     fmt::format("'{}' binds {} storage buffers at once; {} {}; try --device cpu",
                                 context_->physical.name, allowed, purpose, storageBuffers));
@@ -258,11 +294,15 @@ void VulkanDevice::render(const TileRequest& tile, std::span<PixelBlock> blocks)
 {
     auto start = std::chrono::steady_clock::now();
     requireTile(tile, blocks.size());
-    prepareTileBuffers(blocks.size());
-    if (!bound_) bindAll(pipeline_);
-    bound_ = true;
-    active_ = &pipeline_;
-    renderBlocks(tile, blocks);
+    if (waves_) {
+        waves_->render(tileName(tile), tile, blocks);
+    } else {
+        prepareTileBuffers(blocks.size());
+        if (!bound_) bindAll(pipeline_);
+        bound_ = true;
+        active_ = &pipeline_;
+        renderBlocks(tile, blocks);
+    }
     statistics_.renderSeconds += secondsSince(start);
 }
 

@@ -48,12 +48,17 @@ SceneArrays sceneArrays(const DeviceScene& scene, std::span<const std::byte> tab
     return arrays;
 }
 
-// A ray visits each node and each triangle at most once, or once for each instance. A path has two rays
-// a bounce, or under phong one for each light.
+// A path has two rays a bounce, or under phong one for each light.
+uint64_t mostRaysPerSample(const DeviceScene& scene)
+{
+    if (scene.frame.integrator == INTEGRATOR_PHONG) return 1 + uint64_t{scene.frame.lightCount};
+    return 2 * (uint64_t{scene.frame.maxBounces} + 2);
+}
+
+// A ray visits each node and each triangle at most once, or once for each instance.
 uint64_t mostStepsPerSample(const DeviceScene& scene)
 {
-    uint64_t rays = 2 * (uint64_t{scene.frame.maxBounces} + 2);
-    if (scene.frame.integrator == INTEGRATOR_PHONG) rays = 1 + uint64_t{scene.frame.lightCount};
+    uint64_t rays = mostRaysPerSample(scene);
     uint64_t once = 2 * uint64_t{scene.nodes.size()} + scene.primitives.size() + 16;
     uint64_t visits = scene.instances.size() + 1;
     constexpr uint64_t MOST = std::numeric_limits<uint64_t>::max();
@@ -96,6 +101,7 @@ VulkanScene uploadScene(Context& context, const DeviceScene& given, const Buffer
     }
     result.texel = chooseTexelBuffers(context.physical, bytes, buffers);
     result.stepsPerSample = mostStepsPerSample(scene);
+    result.turnsPerSample = mostRaysPerSample(scene) + scene.frame.lightCount;
     requireMemory(context.physical, result.bytes);
 
     for (uint32_t i = 0; i < SCENE_BUFFER_COUNT; i++) {

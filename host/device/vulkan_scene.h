@@ -12,6 +12,7 @@ struct VulkanScene {
     bool texel = false;           ///< texel buffers rather than storage buffers
     uint64_t bytes = 0;           ///< of all arrays and the frame
     uint64_t stepsPerSample = 0;  ///< traversal steps that no sample can need more of
+    uint64_t turnsPerSample = 0;  ///< rays and lights that no sample can have more of
 };
 
 /// Copies the scene to the device. Throws noDevice when one of its arrays exceeds a limit of the

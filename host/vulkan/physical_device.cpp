@@ -68,6 +68,9 @@ void queryProperties(PhysicalDevice& device, bool driverProperties)
     device.uuid = uuidText(id.deviceUUID);
     device.maxAllocationBytes = allocation.maxMemoryAllocationSize;
     device.subgroupSize = subgroup.subgroupSize;
+    constexpr VkSubgroupFeatureFlags BALLOTS = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
+    device.subgroupBallots = (subgroup.supportedOperations & BALLOTS) == BALLOTS &&
+                             (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
     if (driverProperties) {
         device.driverId = driver.driverID;
         if (driver.driverInfo[0] != '\0')

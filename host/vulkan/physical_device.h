@@ -20,6 +20,7 @@ struct PhysicalDevice {
     std::string uuid;                 ///< 8-4-4-4-12 hexadecimal digits
     uint64_t maxAllocationBytes = 0;  ///< of one vkAllocateMemory
     uint32_t subgroupSize = 0;
+    bool subgroupBallots = false;       ///< in compute shaders
     uint32_t queueFamily = 0;           ///< with compute; used for everything
     bool rgba32uiTexelBuffers = false;  ///< R32G32B32A32_UINT as uniform texel buffer
     bool portabilitySubset = false;     ///< the subset extension must be enabled

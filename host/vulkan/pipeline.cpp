@@ -142,8 +142,10 @@ void bindBuffers(Context& context, ComputePipeline& pipeline,
                            nullptr);
 }
 
-void recordDispatch(VkCommandBuffer commands, const ComputePipeline& pipeline,
-                    std::span<const std::byte> pushConstants, const std::array<uint32_t, 3>& groups)
+namespace {
+
+void recordState(VkCommandBuffer commands, const ComputePipeline& pipeline,
+                 std::span<const std::byte> pushConstants)
 {
     VkPipelineLayout layout = pipeline.layout.get();
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle.get());
@@ -152,7 +154,23 @@ void recordDispatch(VkCommandBuffer commands, const ComputePipeline& pipeline,
     if (!pushConstants.empty())
         vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                            static_cast<uint32_t>(pushConstants.size()), pushConstants.data());
+}
+
+}  // namespace
+
+void recordDispatch(VkCommandBuffer commands, const ComputePipeline& pipeline,
+                    std::span<const std::byte> pushConstants, const std::array<uint32_t, 3>& groups)
+{
+    recordState(commands, pipeline, pushConstants);
     vkCmdDispatch(commands, groups[0], groups[1], groups[2]);
+}
+
+void recordIndirectDispatch(VkCommandBuffer commands, const ComputePipeline& pipeline,
+                            std::span<const std::byte> pushConstants, const Buffer& groups,
+                            uint64_t offset)
+{
+    recordState(commands, pipeline, pushConstants);
+    vkCmdDispatchIndirect(commands, groups.handle.get(), offset);
 }
 
 }  // namespace sahl

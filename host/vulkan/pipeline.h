@@ -37,4 +37,10 @@ void recordDispatch(VkCommandBuffer commands, const ComputePipeline& pipeline,
                     std::span<const std::byte> pushConstants,
                     const std::array<uint32_t, 3>& groups);
 
+/// The same, for as many workgroups as three words of the buffer `groups` say when it is their turn. Of that buffer's
+/// usage is VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT.
+///   offset  of the words [bytes]
+void recordIndirectDispatch(VkCommandBuffer commands, const ComputePipeline& pipeline,
+                            std::span<const std::byte> pushConstants, const Buffer& groups, uint64_t offset);
+
 }  // namespace sahl

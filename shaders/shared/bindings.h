@@ -27,6 +27,17 @@ SHARED_CONST uint BINDING_RAYS = 8u;
 SHARED_CONST uint BINDING_RAY_HITS = 9u;
 SHARED_CONST uint BINDING_RAY_WALKS = 10u;
 
+// In place of these, of the kernels of waves: storage buffers. wave_trace has all up to the
+// stacks, wave_shade those up to the hits, wave_film the first two and the pixels. wave_plan has the queues, at binding 0.
+SHARED_CONST uint BINDING_WAVE_QUEUES = 8u;    // WaveCounts, then the queues
+SHARED_CONST uint BINDING_WAVE_SAMPLES = 9u;   // WaveSample[] of the tile
+SHARED_CONST uint BINDING_WAVE_PATHS = 10u;    // WavePath[] and so on: of the slots
+SHARED_CONST uint BINDING_WAVE_RAYS = 11u;
+SHARED_CONST uint BINDING_WAVE_HITS = 12u;
+SHARED_CONST uint BINDING_WAVE_WALKS = 13u;
+SHARED_CONST uint BINDING_WAVE_STACKS = 14u;
+SHARED_CONST uint BINDING_WAVE_PIXELS = 10u;   // of wave_film: PixelBlock[] of the tile
+
 // Specialisation constants.
 SHARED_CONST uint SPEC_GROUP_WIDTH = 0u;   // workgroup shape [invocations]
 SHARED_CONST uint SPEC_GROUP_HEIGHT = 1u;
@@ -36,7 +47,8 @@ SHARED_CONST uint SPEC_EXACT_MATH = 4u;    // 1: division and root made exact (p
 SHARED_CONST uint SPEC_FEATURES = 5u;      // what the scene has: FEATURE_* of features.h
 SHARED_CONST uint SPEC_NODE_WIDTH = 6u;    // children of a node: 2, or 4 for the wide tree
 SHARED_CONST uint SPEC_STACK_IN_REGISTERS = 7u;  // 1: with NODE_WIDTH 4 only
-SHARED_CONST uint SPEC_COUNT = 8u;
+SHARED_CONST uint SPEC_WAVE_RESUMES = 8u;  // 1: walks that run out of steps are saved (kernels/wave_trace.comp)
+SHARED_CONST uint SPEC_COUNT = 9u;
 
 // Order in which the children of a node are visited. It changes the counters, never a hit.
 SHARED_CONST uint ORDER_NEAR_FIRST = 0u;

@@ -3,6 +3,7 @@
 #include "agreement/agreement_spirv.h"
 #include "shared/adaptive_types.h"
 #include "shared/scene_types.h"
+#include "shared/wave_types.h"
 #include "support/device_test.h"
 #include "vulkan/run_compute.h"
 
@@ -65,6 +66,25 @@ TEST_F(SharedStructs, ofAdaptiveSamplingAreReadBackFieldByField)
     ComputeParameters parameters;
     parameters.pushConstants = job;
     runCompute(*context, testSpirv("adaptive_structs"), spans, parameters);
+    for (size_t i = 0; i < expected.size(); i++) EXPECT_EQ(words[i], expected[i]) << "word " << i;
+}
+
+TEST_F(SharedStructs, ofWavesAreReadBackFieldByField)
+{
+    uint32_t next = 1;
+    std::vector<uint32_t> expected;
+    std::vector<std::vector<std::byte>> arrays = {numbered<WaveCounts>(next, expected),
+                                                  numbered<WaveWalk>(next, expected)};
+    std::vector<std::byte> job = numbered<WaveDispatch>(next, expected);
+    job.erase(job.begin(), job.begin() + sizeof(WaveDispatch));
+
+    std::vector<uint32_t> words(expected.size());
+    std::vector<std::span<std::byte>> spans(arrays.begin(), arrays.end());
+    spans.push_back(std::as_writable_bytes(std::span(words)));
+    auto context = openFirstContext();
+    ComputeParameters parameters;
+    parameters.pushConstants = job;
+    runCompute(*context, testSpirv("wave_structs"), spans, parameters);
     for (size_t i = 0; i < expected.size(); i++) EXPECT_EQ(words[i], expected[i]) << "word " << i;
 }
 

@@ -40,7 +40,7 @@ protected:
     /// Runs out of memory at the first call that can, in another run at the one `step` calls later,
     /// and so on; of either kind of memory, and with staging every other time. Gives the number of
     /// runs.
-    uint64_t failAtCalls(uint64_t step)
+    uint64_t failAtCalls(uint64_t step, const DeviceOptions& options = {})
     {
         uint64_t runs = 0;
         for (bool reached = true; reached; runs++) {
@@ -50,7 +50,7 @@ protected:
             hooks_.onCall = [&](const std::string& name) { return failure(name); };
             hooks_.discreteMemory = runs % 2 == 1;
             try {
-                openAndRender(torus_);
+                openAndRender(torus_, options);
                 EXPECT_FALSE(failure.reached()) << failure.name << " failed in silence";
             } catch (const Error& error) {
                 EXPECT_EQ(error.kind, ErrorKind::deviceLost) << failure.name;
@@ -75,6 +75,13 @@ using LongDeviceFaults = DeviceFaults;
 TEST_F(LongDeviceFaults, outOfMemoryAtAnyCall_isAnErrorAndLeavesNothingBehind)
 {
     EXPECT_GT(failAtCalls(1), 50u);
+}
+
+TEST_F(LongDeviceFaults, outOfMemoryAtAnyCallInWaves_isAnErrorAndLeavesNothingBehind)
+{
+    DeviceOptions options;
+    options.variant = "texel-wave";
+    EXPECT_GT(failAtCalls(1, options), 50u);
 }
 
 TEST_F(DeviceFaults, allocationFails_saysHowMuchWasNeededAndForWhat)
@@ -135,9 +142,13 @@ TEST_F(DeviceFaults, deviceThatNeverAnswers_isGivenUpWithoutTouchingItsObjects)
 TEST_F(DeviceFaults, deviceThatComputesNothing_isNoticed)
 {
     hooks_.dropDispatches = true;
-    Error error = errorOfRendering();
-    EXPECT_EQ(error.kind, ErrorKind::deviceLost);
-    expectMentions(error, {"makes no progress"});
+    for (const char* variant : {"texel-8x8-by8", "texel-wave"}) {
+        DeviceOptions options;
+        options.variant = variant;
+        Error error = errorOfRendering(options);
+        EXPECT_EQ(error.kind, ErrorKind::deviceLost);
+        expectMentions(error, {"render tile 32x24 at 0,0", "makes no progress"});
+    }
 }
 
 TEST_F(DeviceFaults, smallHeap_isRefusedWithNumbersBeforeAnyAllocation)

@@ -75,6 +75,7 @@ PFN_vkAllocateMemory allocateMemory;
 PFN_vkFreeMemory freeMemory;
 PFN_vkMapMemory mapMemory;
 PFN_vkCmdDispatch cmdDispatch;
+PFN_vkCmdDispatchIndirect cmdDispatchIndirect;
 
 VKAPI_ATTR void VKAPI_CALL changedProperties(VkPhysicalDevice device,
                                              VkPhysicalDeviceProperties* out)
@@ -88,6 +89,12 @@ VKAPI_ATTR void VKAPI_CALL changedProperties2(VkPhysicalDevice device,
 {
     getProperties2(device, out);
     if (active && active->changeProperties) active->changeProperties(out->properties);
+    for (auto* next = static_cast<VkBaseOutStructure*>(out->pNext); next; next = next->pNext) {
+        if (active && active->noSubgroupBallots &&
+            next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES)
+            reinterpret_cast<VkPhysicalDeviceSubgroupProperties*>(next)->supportedOperations &=
+                ~VkSubgroupFeatureFlags{VK_SUBGROUP_FEATURE_BALLOT_BIT};
+    }
 }
 
 VKAPI_ATTR void VKAPI_CALL changedMemory(VkPhysicalDevice device,
@@ -155,6 +162,12 @@ VKAPI_ATTR void VKAPI_CALL changedDispatch(VkCommandBuffer commands, uint32_t x,
     if (!active || !active->dropDispatches) cmdDispatch(commands, x, y, z);
 }
 
+VKAPI_ATTR void VKAPI_CALL changedDispatchIndirect(VkCommandBuffer commands, VkBuffer buffer,
+                                                   VkDeviceSize offset)
+{
+    if (!active || !active->dropDispatches) cmdDispatchIndirect(commands, buffer, offset);
+}
+
 std::map<std::string_view, Replacement>& replacements()
 {
     static std::map<std::string_view, Replacement> table = [] {
@@ -190,6 +203,7 @@ std::map<std::string_view, Replacement>& replacements()
         addReplacement<&freeMemory>(t, "vkFreeMemory", changedFree);
         addReplacement<&mapMemory>(t, "vkMapMemory", changedMap);
         addReplacement<&cmdDispatch>(t, "vkCmdDispatch", changedDispatch);
+        addReplacement<&cmdDispatchIndirect>(t, "vkCmdDispatchIndirect", changedDispatchIndirect);
         return t;
     }();
     return table;

@@ -29,7 +29,10 @@ public:
     /// kinds of host memory. Mapping the former fails the test.
     bool discreteMemory = false;
 
-    /// vkCmdDispatch does nothing.
+    /// Compute shaders have no ballots of subgroups.
+    bool noSubgroupBallots = false;
+
+    /// vkCmdDispatch and vkCmdDispatchIndirect do nothing.
     bool dropDispatches = false;
 
     /// Workgroups of all calls of vkCmdDispatch.
