@@ -10,6 +10,7 @@
 #include "device/vulkan_trace.h"
 #include "device/walked_tree.h"
 #include "shared/bindings.h"
+#include "util/memory.h"
 #include "vulkan/pipeline.h"
 
 #include <algorithm>
@@ -168,7 +169,9 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     constants[SPEC_EXACT_MATH] = statistics_.exactMath ? 1 : 0;
     constants[SPEC_FEATURES] = pipelineFeatures_;
     request.spirv = foldedKernel(request.name, constants);
-    return createComputePipeline(*context_, request);
+    ComputePipeline pipeline = createComputePipeline(*context_, request);
+    returnFreedMemory();  // the driver's compiler leaves some 60 MB
+    return pipeline;
 }
 
 void VulkanDevice::preparePipeline(bool texel, uint32_t features, uint32_t stackSize, uint32_t nodeWidth)
