@@ -1,4 +1,4 @@
-// sahl bench scale: how cost grows with triangles, threads, pixels and samples.
+// sahl bench scale: how cost grows with triangles, threads, pixels, samples and bounces.
 
 #include "app/bench/bench.h"
 #include "app/bench/embree.h"
@@ -21,11 +21,19 @@ namespace {
 
 constexpr uint32_t ROUNDS = 5;
 constexpr uint32_t LEAST_TRIANGLES = 10'000, MOST_TRIANGLES = 10'000'000;
-constexpr uint32_t TRIANGLES = 70'000;  // where something else grows
+constexpr uint32_t TRIANGLES = 70'000;  // where something else grows, and from where triangles do
+constexpr uint32_t MOST_BOUNCES = 32;
 
 uint32_t roundsOf(const BenchOptions& options)
 {
     return options.repeat > 0 ? options.repeat : ROUNDS;
+}
+
+double boxTestsPerRay(std::span<const TraceHit> hits)
+{
+    uint64_t tests = 0;
+    for (const TraceHit& hit : hits) tests += hit.boxTests;
+    return double(tests) / std::max(double(hits.size()), 1.0);
 }
 
 double renderSeconds(Device& device, uint32_t size, uint32_t spp)
@@ -36,6 +44,38 @@ double renderSeconds(Device& device, uint32_t size, uint32_t spp)
     return renderPicture(device, plan, [](const RenderProgress&) {}).seconds;
 }
 
+/// 10^4, 70,000, 10^5, ... up to `most`.
+std::vector<uint32_t> triangleCounts(uint32_t most)
+{
+    std::vector<uint32_t> counts;
+    for (uint64_t count = std::min(LEAST_TRIANGLES, most); count <= most; count *= 10) {
+        counts.push_back(static_cast<uint32_t>(count));
+        if (count < TRIANGLES && TRIANGLES < 10 * count && TRIANGLES <= most) counts.push_back(TRIANGLES);
+    }
+    return counts;
+}
+
+/// How the time of a ray grows from the row nearest to TRIANGLES to the last one; relative to Embree's, whose
+/// rays went in the same rounds.
+Json growthOf(const Json& rows)
+{
+    const Json* from = nullptr;
+    for (const Json& row : rows)
+        if (!from || row["triangles"] <= 1.05 * TRIANGLES) from = &row;
+    if (!from) return nullptr;
+    const Json& to = rows.back();
+    auto ratio = [&](const char* key) { return to[key].get<double>() / (*from)[key].get<double>(); };
+    Json growth = {{"from", (*from)["triangles"]}, {"to", to["triangles"]}, {"sahl", ratio("nsPerRay")}};
+    if (to.contains("timeToEmbree")) {
+        growth["embree"] = ratio("embreeNsPerRay");
+        growth["relative"] = ratio("timeToEmbree");
+        answer("from {} to {} triangles a diffuse ray takes {} times as long, Embree's {} times: {} relative to it\n",
+               growth["from"].get<uint64_t>(), growth["to"].get<uint64_t>(), shortNumber(growth["sahl"]),
+               shortNumber(growth["embree"]), shortNumber(growth["relative"]));
+    }
+    return growth;
+}
+
 /// Diffuse rays through tori of more and more triangles, and the time to build their trees.
 Json growTriangles(const BenchOptions& options, Device& device, std::vector<LineChart>& charts)
 {
@@ -44,11 +84,12 @@ Json growTriangles(const BenchOptions& options, Device& device, std::vector<Line
     ChartLine ours = {"sahl", {}}, theirs = {"embree", {}}, build = {"sahl", {}}, theirBuild = {"embree", {}};
     Json rows = Json::array();
     std::vector<TableRow> table;
-    for (uint64_t triangles = std::min(LEAST_TRIANGLES, most); triangles <= most; triangles *= 10) {
+    for (uint32_t triangles : triangleCounts(most)) {
         if (interruptSignal() != 0) break;
-        Scene scene = torusScene(static_cast<uint32_t>(triangles), options.size, 1);
+        Scene scene = torusScene(triangles, options.size, 1);
         const size_t count = scene.primitives.size();
-        const auto embree = makeEmbreeScene(scene.primitives, EmbreeBuild::standard, threads);
+        const auto embree =
+            options.alone ? nullptr : makeEmbreeScene(scene.primitives, EmbreeBuild::standard, threads);
         const PreparedScene prepared = prepareScene(std::move(scene), options.common.bvhBuild, threads);
         device.setScene(prepared.deviceScene());
         const RaySet diffuse = makeRays(prepared.scene, prepared.deviceScene(), options.size, threads).back();
@@ -56,11 +97,14 @@ Json growTriangles(const BenchOptions& options, Device& device, std::vector<Line
         std::vector<Contestant> contestants = {{"sahl", [&] { return device.traceRays(diffuse.rays, false, hits); }}};
         if (embree) contestants.push_back({"embree", [&] { return embree->trace(diffuse.rays, false, hits); }});
         for (const Contestant& contestant : contestants) contestant.run();
+        contestants[0].run();  // once more: its counts are read
+        const double boxTests = boxTestsPerRay(hits);
         const std::vector<Timing> timings = runRounds(contestants, roundsOf(options));
         auto nanoseconds = [&](const Timing& timing) { return timing.median() * 1e9 / double(diffuse.rays.size()); };
         Json row = {{"triangles", count},
                     {"rays", diffuse.rays.size()},
                     {"buildSeconds", prepared.bvh.statistics.seconds},
+                    {"boxTestsPerRay", boxTests},
                     {"nsPerRay", nanoseconds(timings[0])},
                     {"spread", timings[0].spread()}};
         ours.points.emplace_back(count, nanoseconds(timings[0]));
@@ -70,6 +114,7 @@ Json growTriangles(const BenchOptions& options, Device& device, std::vector<Line
         if (embree) {
             row["embreeBuildSeconds"] = embree->buildSeconds();
             row["embreeNsPerRay"] = nanoseconds(timings[1]);
+            row["timeToEmbree"] = medianRatio(timings[0], timings[1]);
             theirs.points.emplace_back(count, nanoseconds(timings[1]));
             theirBuild.points.emplace_back(count, embree->buildSeconds());
             line[3] = shortNumber(embree->buildSeconds());
@@ -159,6 +204,21 @@ Json growSamples(const BenchOptions& options, Device& device, std::vector<LineCh
     return grow({"spp", doublings(1, 4 * BLOCK_SIZE), seconds, samples}, options, charts);
 }
 
+/// In the courtyard, where paths go on for long.
+Json growBounces(const BenchOptions& options, Device& device, std::vector<LineChart>& charts)
+{
+    PreparedScene scene = prepareScene(courtyardScene(TRIANGLES, options.size, 1), options.common.bvhBuild,
+                                       threadsFor(options.common));
+    auto seconds = [&](uint32_t bounces) {
+        scene.scene.settings.maxBounces = bounces;
+        device.setScene(scene.deviceScene());
+        return renderSeconds(device, options.size, BLOCK_SIZE);
+    };
+    seconds(1);
+    auto samples = [&](uint32_t) { return double(options.size) * options.size * BLOCK_SIZE; };
+    return grow({"bounces", doublings(1, MOST_BOUNCES), seconds, samples}, options, charts);
+}
+
 }  // namespace
 
 Json benchScale(const BenchOptions& options)
@@ -167,6 +227,7 @@ Json benchScale(const BenchOptions& options)
     std::vector<LineChart> charts;
     Json json = {{"rounds", roundsOf(options)}, {"size", options.size}, {"threads", threadsFor(options.common)}};
     json["byTriangles"] = growTriangles(options, *device, charts);
+    json["growth"] = growthOf(json["byTriangles"]);
     const PreparedScene scene = prepareScene(torusScene(TRIANGLES, options.size, 1), options.common.bvhBuild,
                                              threadsFor(options.common));
     json["byThreads"] = growThreads(options, scene, charts);
@@ -174,6 +235,7 @@ Json benchScale(const BenchOptions& options)
     device->setScene(scene.deviceScene());
     renderSeconds(*device, options.size, 1);
     json["bySamples"] = growSamples(options, *device, charts);
+    json["byBounces"] = growBounces(options, *device, charts);
     if (!options.plotPath.empty() && interruptSignal() == 0)
         writeFileAtomically(fs::path(options.plotPath), encodePng(drawCharts(charts), {{"Software", "sahl"}}));
     return json;
