@@ -54,12 +54,20 @@ double boxTestsPerRay(std::span<const TraceHit> hits)
     return double(tests) / std::max(double(hits.size()), 1.0);
 }
 
-double renderSeconds(Device& device, uint32_t size, uint32_t spp)
+/// What a picture took, without what had to be made for it [s].
+struct Spent {
+    double seconds = 0;
+    double processor = 0;
+};
+
+Spent renderAll(Device& device, uint32_t size, uint32_t spp)
 {
     RenderPlan plan;
     plan.width = plan.height = size;
     plan.sampleCount = spp;
-    return renderPicture(device, plan, [](const RenderProgress&) {}).seconds;
+    const double before = processorSeconds();
+    const double seconds = renderPicture(device, plan, [](const RenderProgress&) {}).seconds;
+    return {seconds, processorSeconds() - before};
 }
 
 /// 10^4, 70,000, 10^5, ... up to `most`.
@@ -107,8 +115,8 @@ Json growTriangles(const BenchOptions& options, Device& device, std::vector<Line
 {
     const unsigned threads = threadsFor(options.common);
     const uint32_t most = options.triangles > 0 ? options.triangles : MOST_TRIANGLES;
-    ChartLine ours = {"sahl", {}}, theirs = {"embree", {}}, ourProcessor = {"sahl, processor", {}},
-              embreeProcessor = {"embree, processor", {}}, build = {"sahl", {}},
+    ChartLine ours = {"sahl", {}}, theirs = {"embree", {}}, ourProcessor = {"sahl cpu", {}},
+              embreeProcessor = {"embree cpu", {}}, build = {"sahl", {}},
               theirBuild = {"embree", {}};
     Json rows = Json::array();
     std::vector<TableRow> table;
@@ -177,7 +185,7 @@ Json growTriangles(const BenchOptions& options, Device& device, std::vector<Line
 struct Growth {
     const char* name;
     std::vector<uint32_t> values;
-    std::function<double(uint32_t value)> seconds;
+    std::function<Spent(uint32_t value)> render;
     std::function<double(uint32_t value)> samples;
 };
 
@@ -186,11 +194,13 @@ Json grow(const Growth& growth, const BenchOptions& options, std::vector<LineCha
     std::vector<Contestant> contestants;
     std::map<uint32_t, Timing> processor;
     for (uint32_t value : growth.values)
-        contestants.push_back({std::to_string(value), timedRun(processor[value], [&growth, value] {
-                                   return growth.seconds(value);
-                               })});
+        contestants.push_back({std::to_string(value), [&, value] {
+                                   const Spent spent = growth.render(value);
+                                   processor[value].seconds.push_back(spent.processor);
+                                   return spent.seconds;
+                               }});
     const std::vector<Timing> timings = runRounds(contestants, roundsOf(options));
-    ChartLine line = {"sahl", {}}, processorLine = {"processor", {}};
+    ChartLine line = {"sahl", {}}, processorLine = {"sahl cpu", {}};
     Json rows = Json::array();
     std::vector<TableRow> table;
     for (size_t i = 0; i < timings.size(); i++) {
@@ -225,36 +235,36 @@ std::vector<uint32_t> doublings(uint32_t from, uint32_t to)
 Json growThreads(const BenchOptions& options, const PreparedScene& scene,
                  std::vector<LineChart>& charts)
 {
-    auto seconds = [&](uint32_t threads) {
+    auto render = [&](uint32_t threads) {
         DeviceOptions device = options.common.deviceOptions;
         device.threads = threads;
         const std::unique_ptr<Device> cpu = makeCpuDevice(device);
         cpu->setScene(scene.deviceScene());
-        return renderSeconds(*cpu, options.size, BLOCK_SIZE);
+        return renderAll(*cpu, options.size, BLOCK_SIZE);
     };
     auto samples = [&](uint32_t) { return double(options.size) * options.size * BLOCK_SIZE; };
-    return grow({"threads", doublings(1, threadsFor(options.common)), seconds, samples}, options,
+    return grow({"threads", doublings(1, threadsFor(options.common)), render, samples}, options,
                 charts);
 }
 
 Json growPixels(const BenchOptions& options, Device& device, std::vector<LineChart>& charts)
 {
-    auto seconds = [&](uint32_t size) {
+    auto render = [&](uint32_t size) {
         const PreparedScene scene = prepareScene(
             torusScene(TRIANGLES, size, 1), options.common.bvhBuild, threadsFor(options.common));
         device.setScene(scene.deviceScene());
-        return renderSeconds(device, size, BLOCK_SIZE);
+        return renderAll(device, size, BLOCK_SIZE);
     };
     auto samples = [](uint32_t size) { return double(size) * size * BLOCK_SIZE; };
     const uint32_t least = std::max(options.size / 8, 1u);
-    return grow({"width", doublings(least, options.size), seconds, samples}, options, charts);
+    return grow({"width", doublings(least, options.size), render, samples}, options, charts);
 }
 
 Json growSamples(const BenchOptions& options, Device& device, std::vector<LineChart>& charts)
 {
-    auto seconds = [&](uint32_t spp) { return renderSeconds(device, options.size, spp); };
+    auto render = [&](uint32_t spp) { return renderAll(device, options.size, spp); };
     auto samples = [&](uint32_t spp) { return double(options.size) * options.size * spp; };
-    return grow({"spp", doublings(1, 4 * BLOCK_SIZE), seconds, samples}, options, charts);
+    return grow({"spp", doublings(1, 4 * BLOCK_SIZE), render, samples}, options, charts);
 }
 
 /// In the courtyard, where paths go on for long.
@@ -262,14 +272,14 @@ Json growBounces(const BenchOptions& options, Device& device, std::vector<LineCh
 {
     PreparedScene scene = prepareScene(courtyardScene(TRIANGLES, options.size, 1),
                                        options.common.bvhBuild, threadsFor(options.common));
-    auto seconds = [&](uint32_t bounces) {
+    auto render = [&](uint32_t bounces) {
         scene.scene.settings.maxBounces = bounces;
         device.setScene(scene.deviceScene());
-        return renderSeconds(device, options.size, BLOCK_SIZE);
+        return renderAll(device, options.size, BLOCK_SIZE);
     };
-    seconds(1);
+    render(1);
     auto samples = [&](uint32_t) { return double(options.size) * options.size * BLOCK_SIZE; };
-    return grow({"bounces", doublings(1, MOST_BOUNCES), seconds, samples}, options, charts);
+    return grow({"bounces", doublings(1, MOST_BOUNCES), render, samples}, options, charts);
 }
 
 }  // namespace
@@ -288,7 +298,7 @@ Json benchScale(const BenchOptions& options)
     json["byThreads"] = growThreads(options, scene, charts);
     json["byPixels"] = growPixels(options, *device, charts);
     device->setScene(scene.deviceScene());
-    renderSeconds(*device, options.size, 1);
+    renderAll(*device, options.size, 1);
     json["bySamples"] = growSamples(options, *device, charts);
     json["byBounces"] = growBounces(options, *device, charts);
     if (!options.plotPath.empty() && interruptSignal() == 0)
