@@ -72,9 +72,9 @@ void tune(const VulkanDeviceInfo& info, const PreparedScene& scene)
         return samplesPerSecond(a) < samplesPerSecond(b);
     };
     const Candidate& best = *std::max_element(candidates.begin(), candidates.end(), slower);
-    const Variant standard = standardVariant();
+    const Variant standard = standardVariant(info.driver);
     for (const Candidate& candidate : candidates)
-        answer("   {:<18} {:7.3f} Msamples/s{}{}\n", nameOf(candidate.variant),
+        answer("   {:<28} {:7.3f} Msamples/s{}{}\n", nameOf(candidate.variant),
                samplesPerSecond(candidate) * 1e-6,
                candidate.variant == standard ? "  standard" : "",
                &candidate == &best ? "  fastest" : "");

@@ -199,13 +199,14 @@ public:
         uint ref = REF_NONE;
         Grid grid;
         uint pending = 0;
+        uint groups = 0;
     };
 
     /// Nothing where no grid fits. Objects first: their trees are asked for by those with
     /// instances.
     std::optional<Tree> addTree(uint rootRef, double reach)
     {
-        Tree tree = {rootRef, {}, 0};
+        Tree tree = {rootRef, {}, 0, 0};
         if (isInner(rootRef)) {
             Box box;
             for (const Child& child : childrenOf(nodes_[rootRef])) grow(box, child.box);
@@ -218,6 +219,7 @@ public:
         const Place root = add(rootRef, tree.grid);
         tree.ref = root.ref;
         tree.pending = root.pending;
+        tree.groups = root.groups;
         return tree;
     }
 
@@ -245,17 +247,19 @@ private:
     struct Place {
         uint ref = REF_NONE;
         uint pending = 0;  ///< that wait at most, of those below
+        uint groups = 0;
     };
 
     /// Recursion is as deep as the binary tree: at most MAX_STACK_SIZE.
     Place add(uint ref, const Grid& grid)
     {
-        if (!isInner(ref)) return {ref, isInstance(ref) ? 1 + objectOf(ref).pending : 0};
+        if (isInstance(ref)) return {ref, 1 + objectOf(ref).pending, 1 + objectOf(ref).groups};
+        if (!isInner(ref)) return {ref, 0, 0};
         const std::vector<Child> children = collapse_.childrenOfWide(ref);
         const auto index = static_cast<uint>(result_.nodes.size());
         result_.nodes.emplace_back();
         WideNode node = {uvec4(0), uvec4(0), uvec4(0), uvec4(REF_NONE)};
-        uint deepest = 0;
+        uint deepest = 0, groups = 0;
         for (int i = 0; i < static_cast<int>(children.size()); i++) {
             const Child& child = children[static_cast<size_t>(i)];
             node.x[i] = planesOf(grid[0], child.box.lo.x, child.box.hi.x);
@@ -264,9 +268,10 @@ private:
             const Place place = add(child.ref, grid);
             node.refs[i] = place.ref;
             deepest = std::max(deepest, place.pending);
+            groups = std::max(groups, place.groups);
         }
         result_.nodes[index] = node;
-        return {index, deepest + static_cast<uint>(children.size()) - 1};
+        return {index | static_cast<uint>(children.size() - 1) << WIDE_CHILDREN_SHIFT, deepest + static_cast<uint>(children.size()) - 1, groups + (children.size() > 1 ? 1 : 0)};
     }
 
     static bool isInstance(uint ref) { return (ref & REF_NOT_INNER) == REF_INSTANCE; }
@@ -326,9 +331,10 @@ WideTrees widen(std::span<const BvhNode> nodes, std::span<const ObjectInstance> 
         widening.objects[ref] = *tree;
     }
     const auto world = widening.addTree(rootRef, reach);
-    if (!world) return {};
+    if (!world || result.nodes.size() > WIDE_INDEX) return {};
     result.rootRef = world->ref;
     result.worstPending = world->pending;
+    result.worstGroups = world->groups;
     result.gridAt = gridAtOf(world->grid);
     result.gridScale = gridScaleOf(world->grid);
     result.instances.assign(instances.begin(), instances.end());

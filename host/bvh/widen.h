@@ -17,6 +17,7 @@ struct WideTrees {
     vec3 gridAt = vec3(0.0f);  ///< of the world, as in Frame
     uint gridScale = 0;
     uint worstPending = 0;  ///< most references that wait on the stack, whatever the ray
+    uint worstGroups = 0;   ///< most nodes of which children wait, whatever the ray
 };
 
 /// Collapses trees that are sound (bvh.h). The result depends on the arguments alone.

@@ -160,7 +160,7 @@ public:
 
     void setScene(const DeviceScene& scene) override
     {
-        walk_.nodeWidth = nodeWidthFor(scene, wantedWidth_);
+        walk_.nodeWidth = walkFormFor(scene, wantedWidth_, false).nodeWidth;
         scene_ = walkedScene(scene, walk_.nodeWidth);
         statistics_.sceneBytes = (walk_.nodeWidth == 4 ? scene.wide.nodes.size_bytes() : scene.nodes.size_bytes()) + scene.primitives.size_bytes() +
                                  scene.triangleCorners.size_bytes() + scene.materials.size_bytes() +

@@ -24,6 +24,7 @@ struct WideScene {
     vec3 gridAt = vec3(0.0f);
     uint gridScale = 0;
     uint32_t worstPending = 0;                   ///< references on the stack, whatever the ray
+    uint32_t worstGroups = 0;                    ///< nodes of which children wait, whatever the ray
 };
 
 /// What a device reads: spans over the scene's arrays and its tree. They must stay valid until the

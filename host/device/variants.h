@@ -10,11 +10,13 @@ struct Variant {
     bool texelBuffers =
         true;  ///< the scene is read through them wherever it fits, else storage buffers
     uint32_t groupWidth = 8, groupHeight = 8;
-    uint32_t samplesAtOnce = 0;  ///< that a dispatch may take a pixel further
+    uint32_t samplesAtOnce = 0;     ///< that a dispatch may take a pixel further
+    bool stackInRegisters = false;  ///< wherever a wide tree is no higher than there are registers
     bool operator==(const Variant&) const = default;
 };
 
-/// "texel-8x8-by8": how the scene is read, shape of a workgroup, samples at once.
+/// "texel-8x8-by8-registers": how the scene is read, shape of a workgroup, samples at once, and
+/// where the stack is if not in an array.
 std::string nameOf(const Variant& variant);
 
 /// All that `sahl devices --tune` tries and `--variant` takes.
@@ -23,8 +25,9 @@ std::vector<Variant> allVariants();
 /// Throws usage with the list of names.
 Variant variantNamed(const std::string& name);
 
-/// What runs where nothing was tuned, whatever the driver.
-Variant standardVariant();
+/// What runs where nothing was tuned: by a small table of drivers.
+///   driver  its name and version, as in DeviceInfo
+Variant standardVariant(const std::string& driver);
 
 /// The variant that `sahl devices --tune` found for the device and driver, or nothing: where it was
 /// not tuned, or by other names than today's. Never throws.

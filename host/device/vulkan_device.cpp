@@ -49,7 +49,7 @@ std::string tileName(const TileRequest& tile)
 /// the options name.
 Variant chooseVariant(const PhysicalDevice& device, const DeviceOptions& options)
 {
-    Variant variant = standardVariant();
+    Variant variant = standardVariant(device.driver);
     if (!options.variant.empty())
         variant = variantNamed(options.variant);
     else if (std::optional<Variant> tuned = tunedVariant(device.name, device.driver))
@@ -78,7 +78,7 @@ public:
 private:
     ComputePipeline makePipeline(const std::string& kernel, uint32_t bindingCount,
                                  uint32_t pushConstantBytes = sizeof(Dispatch)) const;
-    void preparePipeline(bool texel, uint32_t features, uint32_t stackSize, uint32_t nodeWidth);
+    void preparePipeline(bool texel, uint32_t features, const WalkForm& form);
     void prepareTileBuffers(size_t pixels);
     void prepareFirstHits(size_t pixels);
     void requireStorageBuffers(uint32_t ofKernel, const char* purpose) const;
@@ -101,8 +101,7 @@ private:
     const ComputePipeline* active_ = nullptr;    // the one of the two that dispatches use
     bool pipelineTexel_ = false;
     uint32_t pipelineFeatures_ = 0;
-    uint32_t pipelineStack_ = 0;  // 0: no pipeline yet
-    uint32_t pipelineNodeWidth_ = 0;
+    WalkForm pipelineForm_;  // without entries: no pipeline yet
     std::unique_ptr<VulkanScene> scene_;
     uint32_t samplerKind_ = SAMPLER_INDEPENDENT;
     Buffer pixels_, suspended_;   // as large as the largest tile so far
@@ -134,13 +133,13 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     scene_.reset();  // first, so that there never need be room for two scenes
     bound_ = false;
     firstHitsBound_ = false;
-    const uint32_t nodeWidth = nodeWidthFor(scene, options_.nodeWidth);
-    uint32_t stackSize = chooseStackSize(stackEntriesFor(scene, nodeWidth));
+    WalkForm form = walkFormFor(scene, options_.nodeWidth, variant_.stackInRegisters);
+    form.stackEntries = chooseStackSize(form.stackEntries);
     auto start = std::chrono::steady_clock::now();
     auto uploaded = std::make_unique<VulkanScene>(
-        uploadScene(*context_, scene, {options_.buffers, variant_.texelBuffers}, nodeWidth));
+        uploadScene(*context_, scene, {options_.buffers, variant_.texelBuffers}, form.nodeWidth));
     statistics_.uploadSeconds += secondsSince(start);
-    preparePipeline(uploaded->texel, featuresOf(scene), stackSize, nodeWidth);
+    preparePipeline(uploaded->texel, featuresOf(scene), form);
     scene_ = std::move(uploaded);
     samplerKind_ = scene.frame.samplerKind;
     statistics_.sceneBytes = scene_->bytes;
@@ -163,8 +162,9 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     std::vector<uint32_t> constants(SPEC_COUNT);
     constants[SPEC_GROUP_WIDTH] = group_[0];
     constants[SPEC_GROUP_HEIGHT] = group_[1];
-    constants[SPEC_STACK_SIZE] = pipelineStack_;
-    constants[SPEC_NODE_WIDTH] = pipelineNodeWidth_;
+    constants[SPEC_STACK_SIZE] = pipelineForm_.stackEntries;
+    constants[SPEC_STACK_IN_REGISTERS] = pipelineForm_.stackInRegisters ? 1 : 0;
+    constants[SPEC_NODE_WIDTH] = pipelineForm_.nodeWidth;
     constants[SPEC_ORDER] = options_.traversalOrder;
     constants[SPEC_EXACT_MATH] = statistics_.exactMath ? 1 : 0;
     constants[SPEC_FEATURES] = pipelineFeatures_;
@@ -174,13 +174,11 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     return pipeline;
 }
 
-void VulkanDevice::preparePipeline(bool texel, uint32_t features, uint32_t stackSize, uint32_t nodeWidth)
+void VulkanDevice::preparePipeline(bool texel, uint32_t features, const WalkForm& form)
 {
-    if (pipelineStack_ == stackSize && pipelineTexel_ == texel && pipelineFeatures_ == features &&
-        pipelineNodeWidth_ == nodeWidth)
+    if (pipelineForm_ == form && pipelineTexel_ == texel && pipelineFeatures_ == features)
         return;
-    pipelineStack_ = stackSize;
-    pipelineNodeWidth_ = nodeWidth;
+    pipelineForm_ = form;
     pipelineTexel_ = texel;
     pipelineFeatures_ = features;
     firstHitsPipeline_ = {};
@@ -190,7 +188,7 @@ void VulkanDevice::preparePipeline(bool texel, uint32_t features, uint32_t stack
     try {
         pipeline_ = makePipeline("path", BINDING_COUNT);
     } catch (...) {
-        pipelineStack_ = 0;
+        pipelineForm_ = {};
         throw;
     }
 }
@@ -295,7 +293,7 @@ double VulkanDevice::traceRays(std::span<const TraceRay> rays, bool anyHit, std:
     requireStorageBuffers(3, "rays of the host need");
     if (tracePipeline_.name.empty())
         tracePipeline_ = makePipeline("trace_rays", BINDING_RAY_WALKS + 1, sizeof(TraceDispatch));
-    return traceRaysOnVulkan({*context_, tracePipeline_, *scene_, work_, statistics_, pipelineStack_,
+    return traceRaysOnVulkan({*context_, tracePipeline_, *scene_, work_, statistics_, pipelineForm_.stackEntries,
                               group_[0] * group_[1]},
                              rays, anyHit, hits);
 }
@@ -317,14 +315,14 @@ std::unique_ptr<AdaptivePicture> VulkanDevice::beginAdaptive(const AdaptiveWindo
         prepareTileBuffers(pixels);
     };
     AdaptiveHost host = {*context_, *adaptive_,  *scene_,        suspended_,
-                         work_,     statistics_, pipelineStack_, prepareTile};
+                         work_,     statistics_, pipelineForm_.stackEntries, prepareTile};
     return makeVulkanAdaptivePicture(host, window, rule);
 }
 
 void VulkanDevice::renderBlocks(const TileRequest& tile, std::span<PixelBlock> blocks)
 {
     RoundState state = runRound(tile, tile.sampleCount, true, blocks);
-    work_.finish({tileName(tile), scene_->stepsPerSample, pipelineStack_}, state,
+    work_.finish({tileName(tile), scene_->stepsPerSample, pipelineForm_.stackEntries}, state,
                  [&](uint32_t samples) { return runRound(tile, samples, false, blocks); });
 }
 

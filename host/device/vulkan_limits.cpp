@@ -120,7 +120,7 @@ std::array<uint32_t, 2> chooseGroupShape(const PhysicalDevice& device, uint32_t 
 
 uint32_t chooseStackSize(uint32_t treeDepth)
 {
-    for (uint32_t size : {16u, 24u, 32u, 48u, MAX_STACK_SIZE})
+    for (uint32_t size : {8u, 12u, 16u, 24u, 32u, 48u, MAX_STACK_SIZE})
         if (size >= treeDepth) return size;
     throw badInput(
         "the scene's tree is {} levels deep, at most {} can be traversed; build it again",

@@ -3,24 +3,33 @@
 
 #include "device/device.h"
 
+#include <algorithm>
+
 namespace sahl {
 
-/// Entries that a stack needs beyond those that can wait: a wide node writes three at once
-/// (pathtrace/wide.glsl).
+/// How kernels walk a scene: what their constants of these names are.
+struct WalkForm {
+    uint32_t nodeWidth = 2;
+    uint32_t stackEntries = 0;  ///< that the scene's trees need
+    bool stackInRegisters = false;
+
+    bool operator==(const WalkForm&) const = default;
+};
+
+/// Entries that a stack of references needs beyond those that can wait: a wide node writes three at
+/// once (pathtrace/wide.glsl).
 constexpr uint32_t WIDE_STACK_SLACK = 2;
 
-/// NODE_WIDTH of the kernels for a scene: `wanted`, but 2 where there is no wide tree, or none that
-/// the largest stack is enough for.
-inline uint32_t nodeWidthFor(const DeviceScene& scene, uint32_t wanted)
+/// The wanted form, but the binary tree where there is no wide one or none that the largest stack
+/// is enough for, and an array where the registers are too few.
+inline WalkForm walkFormFor(const DeviceScene& scene, uint32_t wantedWidth, bool wantRegisters)
 {
-    const bool fits = scene.wide.worstPending + WIDE_STACK_SLACK <= MAX_STACK_SIZE;
-    return wanted == 4 && fits && !scene.wide.nodes.empty() ? 4 : 2;
-}
-
-/// Entries of the stack that walks through the trees of that width need.
-inline uint32_t stackEntriesFor(const DeviceScene& scene, uint32_t nodeWidth)
-{
-    return nodeWidth == 4 ? scene.wide.worstPending + WIDE_STACK_SLACK : scene.treeDepth;
+    const uint32_t entries = scene.wide.worstPending + WIDE_STACK_SLACK;
+    const uint32_t groups = scene.wide.worstGroups;
+    if (wantedWidth != 4 || scene.wide.nodes.empty() || entries > MAX_STACK_SIZE)
+        return {2, scene.treeDepth, false};
+    if (wantRegisters && groups <= STACK_REGISTERS + 1) return {4, std::max(groups, 2u) - 1, true};
+    return {4, entries, false};
 }
 
 /// The scene with the frame and the instances of the trees of that width.

@@ -69,6 +69,12 @@ inline Four floatsOf(FourUints v)
     return __builtin_convertvector((FourInts)v, Four);
 }
 
+/// max(v, 0), of either sign where it is 0.
+inline Four positive4(Four v)
+{
+    return v < Four{} ? Four{} : v;
+}
+
 inline FourUints bitsOf(Four v)
 {
     return (FourUints)v;
@@ -93,6 +99,12 @@ inline FourUints allBitsWhere(Four a, Four b)
 inline FourUints allBitsWhereNone(FourUints refs)
 {
     return (FourUints)(refs == REF_NONE);
+}
+
+/// All bits in the places after `last`.
+inline FourUints allBitsWhereBeyond(uint last)
+{
+    return (FourUints)(FourInts{0, 1, 2, 3} > static_cast<int32_t>(last));
 }
 
 }  // namespace sahl::reference

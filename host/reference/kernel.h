@@ -29,6 +29,7 @@ template <uint Order = ORDER_NEAR_FIRST, bool Instances = true, bool Textures = 
 struct Kernel {
     static constexpr uint STACK_SIZE = MAX_STACK_SIZE;
     static constexpr uint NODE_WIDTH = NodeWidth;
+    static constexpr bool STACK_IN_REGISTERS = false;
     static constexpr uint TRAVERSAL_ORDER = Order;
     static constexpr uint FEATURES = FEATURES_ALL & ~(Instances ? 0u : FEATURE_INSTANCES) &
                                      ~(Textures ? 0u : FEATURE_TEXTURES | FEATURE_CUTOUTS);
@@ -49,13 +50,22 @@ struct Kernel {
 
     const BvhNode& loadNode(uint index) const { return nodes[index]; }
     const WideNode& loadWideNode(uint index) const { return wideNodes[index]; }
+    /// By an offset of 32 bits, in which the number of children is shifted out.
+    const WideNode& wideNodeOf(uint ref) const
+    {
+        return *reinterpret_cast<const WideNode*>(reinterpret_cast<const char*>(wideNodes.data()) + uint(ref << 6));
+    }
+    const uvec4& loadWideX(uint ref) const { return wideNodeOf(ref).x; }
+    const uvec4& loadWideY(uint ref) const { return wideNodeOf(ref).y; }
+    const uvec4& loadWideZ(uint ref) const { return wideNodeOf(ref).z; }
+    const uvec4& loadWideRefs(uint ref) const { return wideNodeOf(ref).refs; }
     /// Has what a reference to a wide node or a leaf leads to read ahead.
     void expectRef(uint ref) const
     {
         if ((ref & REF_LEAF) != 0)
             __builtin_prefetch(primitives.data() + ((ref & ~REF_LEAF) >> LEAF_COUNT_BITS));
         else if ((ref & REF_NOT_INNER) == 0)
-            __builtin_prefetch(wideNodes.data() + ref);
+            __builtin_prefetch(&wideNodeOf(ref));
     }
     const Primitive& loadPrimitive(uint index) const { return primitives[index]; }
     const TriangleCorners& loadCorners(uint index) const { return triangleCorners[index]; }

@@ -48,7 +48,7 @@ DeviceScene PreparedScene::deviceScene() const
     view.frame.probeMean = lightTable.probeMean;
     view.treeDepth = bvh.statistics.depth;
     view.wide = {wide.nodes,  wide.instances, wide.rootRef,
-                 wide.gridAt, wide.gridScale, wide.worstPending};
+                 wide.gridAt, wide.gridScale, wide.worstPending, wide.worstGroups};
     view.frame.camera = scene.camera;
     view.frame.probe = scene.probe;
     view.frame.background = scene.background.value_or(scene.probe);

@@ -13,6 +13,7 @@
 
 layout(constant_id = SPEC_STACK_SIZE) const uint STACK_SIZE = 64u;
 layout(constant_id = SPEC_NODE_WIDTH) const uint NODE_WIDTH = 2u;
+layout(constant_id = SPEC_STACK_IN_REGISTERS) const bool STACK_IN_REGISTERS = false;
 layout(constant_id = SPEC_ORDER) const uint TRAVERSAL_ORDER = ORDER_NEAR_FIRST;
 layout(constant_id = SPEC_EXACT_MATH) const bool EXACT_MATH = false;
 layout(constant_id = SPEC_FEATURES) const uint FEATURES = FEATURES_ALL;
@@ -47,6 +48,12 @@ WideNode loadWideNode(uint index)
     return WideNode(FETCH(nodeWords, index * 4u), FETCH(nodeWords, index * 4u + 1u),
                     FETCH(nodeWords, index * 4u + 2u), FETCH(nodeWords, index * 4u + 3u));
 }
+
+// Of the node that a reference or a number names.
+uvec4 loadWideX(uint ref) { return FETCH(nodeWords, (ref & WIDE_INDEX) * 4u); }
+uvec4 loadWideY(uint ref) { return FETCH(nodeWords, (ref & WIDE_INDEX) * 4u + 1u); }
+uvec4 loadWideZ(uint ref) { return FETCH(nodeWords, (ref & WIDE_INDEX) * 4u + 2u); }
+uvec4 loadWideRefs(uint ref) { return FETCH(nodeWords, (ref & WIDE_INDEX) * 4u + 3u); }
 
 // Of use on processors that read ahead; see host/reference/kernel.h.
 void expectRef(uint ref) {}

@@ -19,6 +19,9 @@ vec4 fours(float x) { return vec4(x); }
 // By way of int, which all machines convert fast; exact below 2^24.
 vec4 floatsOf(uvec4 v) { return vec4(ivec4(v)); }
 
+/// max(v, 0), of either sign where it is 0; by way of int, whose maximum is one instruction also against a constant.
+vec4 positive4(vec4 v) { return intBitsToFloat(max(floatBitsToInt(v), ivec4(0))); }
+
 uvec4 bitsOf(vec4 v) { return floatBitsToUint(v); }
 
 vec4 lesser4(vec4 a, vec4 b) { return mix(a, b, lessThan(b, a)); }
@@ -29,3 +32,9 @@ vec4 greater4(vec4 a, vec4 b) { return mix(a, b, lessThan(a, b)); }
 uvec4 allBitsWhere(vec4 a, vec4 b) { return mix(uvec4(0u), uvec4(0xffffffffu), lessThanEqual(a, b)); }
 
 uvec4 allBitsWhereNone(uvec4 refs) { return mix(uvec4(0u), uvec4(0xffffffffu), equal(refs, uvec4(REF_NONE))); }
+
+/// All bits in the places after `last`.
+uvec4 allBitsWhereBeyond(uint last)
+{
+    return mix(uvec4(0u), uvec4(0xffffffffu), lessThan(uvec4(last), uvec4(0u, 1u, 2u, 3u)));
+}

@@ -16,7 +16,7 @@ void suspendPath(uint index, PathState path, Traversal walk)
     suspended[index].bounces = tally.bounces;
     suspended[index].clamped = tally.clamped;
     uint i = 0u;
-    for (; i < walk.stackSize; i++) suspended[index].stack[i] = stack[i];
+    for (; i < walk.stackSize; i++) suspended[index].stack[i] = stackEntry(i);
     if (i != walk.stackSize) faults |= FAULT_LOOP_CUT;
 }
 
@@ -31,6 +31,6 @@ void resumePath(uint index, out PathState path, out Traversal walk)
     tally.bounces = suspended[index].bounces;
     tally.clamped = suspended[index].clamped;
     uint i = 0u;
-    for (; i < walk.stackSize; i++) stack[i] = suspended[index].stack[i];
+    for (; i < walk.stackSize; i++) setStackEntry(i, suspended[index].stack[i]);
     if (i != walk.stackSize) faults |= FAULT_LOOP_CUT;
 }

@@ -33,7 +33,7 @@ void suspendWalk(uint index, Traversal walk)
     walks[index].boxTests = tally.boxTests;
     walks[index].primitiveTests = tally.primitiveTests;
     uint i = 0u;
-    for (; i < walk.stackSize; i++) walks[index].stack[i] = stack[i];
+    for (; i < walk.stackSize; i++) walks[index].stack[i] = stackEntry(i);
     if (i != walk.stackSize) faults |= FAULT_LOOP_CUT;
 }
 
@@ -43,7 +43,7 @@ Traversal resumedWalk(uint index)
     tally.boxTests = walks[index].boxTests;
     tally.primitiveTests = walks[index].primitiveTests;
     uint i = 0u;
-    for (; i < walk.stackSize; i++) stack[i] = walks[index].stack[i];
+    for (; i < walk.stackSize; i++) setStackEntry(i, walks[index].stack[i]);
     if (i != walk.stackSize) faults |= FAULT_LOOP_CUT;
     return walk;
 }

@@ -1,5 +1,5 @@
 // The path tracer, in the order in which a path meets its parts. The includer provides the buffers
-// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, NODE_WIDTH, TRAVERSAL_ORDER, EXACT_MATH, FEATURES and the macros
+// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, STACK_IN_REGISTERS, NODE_WIDTH, TRAVERSAL_ORDER, EXACT_MATH, FEATURES and the macros
 // OUT and INOUT.
 
 // Invocation-wide state.
@@ -16,7 +16,8 @@ struct Tally
 Tally tally;             // work counted for the current sample
 uint stepsLeft;          // steps of traversal before the invocation must stop
 uint faults;             // FAULT_* seen so far
-uint stack[STACK_SIZE];  // references still to visit
+uint stack[STACK_SIZE];  // references still to visit, or
+uint registers[STACK_REGISTERS];  // groups of them (stack.glsl)
 
 CONST float RAY_INFINITY = 3.0e38f;
 

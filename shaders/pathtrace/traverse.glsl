@@ -19,6 +19,7 @@ Traversal beginTraversal(float tMax)
     Traversal walk;
     walk.ref = frame.rootRef;
     walk.stackSize = 0u;
+    walk.group = 0u;
     walk.slot = NO_HIT;
     walk.number = NO_HIT;
     walk.tHit = tMax;
@@ -28,7 +29,6 @@ Traversal beginTraversal(float tMax)
     walk.instance = NO_INSTANCE;
     walk.unused0 = 0u;
     walk.unused1 = 0u;
-    walk.unused2 = 0u;
     return walk;
 }
 
@@ -152,7 +152,6 @@ void visitPrimitive(READ(WalkRay) ray, uint slot, INOUT(Traversal) walk)
 uint visitNode(BoxRay boxes, INOUT(Traversal) walk)
 {
     BvhNode node = loadNode(walk.ref);
-    tally.boxTests += 2u;
     float entry0;
     float entry1;
     bool met0 = intersectBox(boxes, node.lo0, node.hi0, walk.tHit, entry0);
@@ -168,8 +167,8 @@ uint visitNode(BoxRay boxes, INOUT(Traversal) walk)
     return popRef(walk);
 }
 
-/// Visits all primitives of the leaf that the walk is at.
-void visitLeaf(READ(WalkRay) ray, INOUT(Traversal) walk)
+/// Visits all primitives of the leaf that the walk is at; returns how many.
+uint visitLeaf(READ(WalkRay) ray, INOUT(Traversal) walk)
 {
     uint first = (walk.ref & ~REF_LEAF) >> LEAF_COUNT_BITS;
     uint count = (walk.ref & (MAX_LEAF_SIZE - 1u)) + 1u;
@@ -179,8 +178,7 @@ void visitLeaf(READ(WalkRay) ray, INOUT(Traversal) walk)
         i++;
     }
     if (i != count) faults |= FAULT_LOOP_CUT;
-    tally.primitiveTests += count;
-    stepsLeft = stepsLeft > count ? stepsLeft - count : 0u;
+    return count;
 }
 
 /// Takes the walk into the instance that it is at, if the ray meets its box, or out of the one that it
@@ -188,7 +186,6 @@ void visitLeaf(READ(WalkRay) ray, INOUT(Traversal) walk)
 ///   org, dir  of the ray in the world
 void changeSpace(vec3 org, vec3 dir, INOUT(WalkRay) ray, INOUT(Traversal) walk)
 {
-    stepsLeft--;
     if (walk.ref == REF_LEAVE) {
         walk.inside = NO_INSTANCE;
         walk.ref = popRef(walk);
@@ -200,7 +197,7 @@ void changeSpace(vec3 org, vec3 dir, INOUT(WalkRay) ray, INOUT(Traversal) walk)
     float entry;
     tally.boxTests++;
     if (intersectBox(ray.boxes, instance.lo, instance.hi, walk.tHit, entry)) {
-        pushRef(REF_LEAVE, walk);
+        pushLeave(walk);
         walk.inside = index;
         walk.ref = instance.rootRef;
         ray = walkRayInside(instance, org, dir, entry);
@@ -214,26 +211,36 @@ void changeSpace(vec3 org, vec3 dir, INOUT(WalkRay) ray, INOUT(Traversal) walk)
 /// a driver that cuts a loop short leaves a fault behind.
 bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) walk)
 {
+    uint steps = stepsLeft;
+    uint nodesVisited = 0u;
+    uint primitivesVisited = 0u;
     WalkRay ray = walkRayOf(walk, org, dir);
-    while (walk.ref != REF_NONE && stepsLeft != 0u) {
-        while ((walk.ref & REF_NOT_INNER) == 0u && stepsLeft != 0u) {
-            stepsLeft--;
+    while (walk.ref != REF_NONE && steps != 0u) {
+        while ((walk.ref & REF_NOT_INNER) == 0u && steps != 0u) {
+            steps--;
+            nodesVisited++;
             if (NODE_WIDTH == 4u) {
                 walk.ref = visitWideNode(ray.onGrid, walk);
             } else {
                 walk.ref = visitNode(ray.boxes, walk);
             }
         }
-        if ((walk.ref & REF_NOT_INNER) == 0u && stepsLeft != 0u) faults |= FAULT_LOOP_CUT;
-        if (walk.ref == REF_NONE || stepsLeft == 0u || faults != 0u) break;
+        if ((walk.ref & REF_NOT_INNER) == 0u && steps != 0u) faults |= FAULT_LOOP_CUT;
+        if (walk.ref == REF_NONE || steps == 0u || faults != 0u) break;
 
         if (HAS_INSTANCES && (walk.ref & REF_LEAF) == 0u) {
+            steps--;
             changeSpace(org, dir, ray, walk);
         } else {
-            visitLeaf(ray, walk);
+            uint count = visitLeaf(ray, walk);
+            primitivesVisited += count;
+            steps = steps > count ? steps - count : 0u;
             walk.ref = anyHit && walk.slot != NO_HIT ? REF_NONE : popRef(walk);
         }
     }
-    if (walk.ref != REF_NONE && stepsLeft != 0u) faults |= FAULT_LOOP_CUT;
+    if (walk.ref != REF_NONE && steps != 0u) faults |= FAULT_LOOP_CUT;
+    tally.boxTests += NODE_WIDTH * nodesVisited;
+    tally.primitiveTests += primitivesVisited;
+    stepsLeft = steps;
     return walk.ref == REF_NONE;
 }

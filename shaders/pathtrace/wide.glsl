@@ -38,27 +38,26 @@ BoxRay makeGridRay(BoxRay ray, vec3 gridAt, uint gridScale)
 }
 
 /// Tests the four boxes of a node against the part of the ray up to tMax.
+///   x, y, z  as in WideNode
+///   absent   all bits for the children that the node lacks
 ///   returns  for each child a key: larger where the ray enters later, the number of the child in its two lowest
 ///            bits; WIDE_MISS where the box is not met
-FourUints intersectFour(BoxRay ray, READ(WideNode) node, float tMax)
+FourUints intersectFour(BoxRay ray, FourUints x, FourUints y, FourUints z, FourUints absent, float tMax)
 {
-    FourUints x = fourUints(node.x);
-    FourUints y = fourUints(node.y);
-    FourUints z = fourUints(node.z);
     Four ax = (floatsOf(x & 0xffffu) - ray.orgLo.x) * ray.inverse.x;
     Four bx = (floatsOf(x >> 16u) - ray.orgHi.x) * ray.inverse.x;
     Four ay = (floatsOf(y & 0xffffu) - ray.orgLo.y) * ray.inverse.y;
     Four by = (floatsOf(y >> 16u) - ray.orgHi.y) * ray.inverse.y;
     Four az = (floatsOf(z & 0xffffu) - ray.orgLo.z) * ray.inverse.z;
     Four bz = (floatsOf(z >> 16u) - ray.orgHi.z) * ray.inverse.z;
-    Four entry = greater4(greater4(lesser4(ax, bx), lesser4(ay, by)), greater4(lesser4(az, bz), fours(0.0f)));
+    Four entry = positive4(greater4(greater4(lesser4(ax, bx), lesser4(ay, by)), lesser4(az, bz)));
     Four leave = lesser4(lesser4(greater4(ax, bx), greater4(ay, by)), lesser4(greater4(az, bz), fours(tMax)));
     FourUints number = fourUints(uvec4(0u, 1u, 2u, 3u));
     if (TRAVERSAL_ORDER == ORDER_RIGHT_FIRST) number = fourUints(uvec4(3u, 2u, 1u, 0u));
-    // Without the sign: zero has either, and not the same on all devices
+    // Without the sign: zero has either
     FourUints key = (bitsOf(entry) & 0x7ffffffcu) | number;
     if (TRAVERSAL_ORDER != ORDER_NEAR_FIRST) key = number;
-    return key | ~allBitsWhere(entry, leave) | allBitsWhereNone(fourUints(node.refs));
+    return key | ~allBitsWhere(entry, leave) | absent;
 }
 
 CONST uint WIDE_MISS = 0xffffffffu;
@@ -70,23 +69,32 @@ uint greaterUint(uint a, uint b) { return a < b ? b : a; }
 /// The child that a key of intersectFour() names.
 uint childNumber(uint key) { return TRAVERSAL_ORDER == ORDER_RIGHT_FIRST ? 3u - (key & 3u) : key & 3u; }
 
-uint childOf(READ(WideNode) node, uint key) { return pick(node.refs, childNumber(key)); }
-
-void pushChild(READ(WideNode) node, uint key, INOUT(Traversal) walk)
+void pushChild(uvec4 refs, uint key, INOUT(Traversal) walk)
 {
-    uint ref = childOf(node, key);
+    uint ref = pick(refs, childNumber(key));
     expectRef(ref);
     stack[walk.stackSize] = ref;
     walk.stackSize++;
 }
 
+/// The group of the children that three keys name, of which those after a WIDE_MISS are no more; 0 for none.
+uint groupOf(uint node, uint second, uint third, uint fourth)
+{
+    uint count = third == WIDE_MISS ? 1u : (fourth == WIDE_MISS ? 2u : 3u);
+    uint numbers = (childNumber(fourth) << 4u) | (childNumber(third) << 2u) | childNumber(second);
+    uint group = (node << 8u) | (count << 6u) | numbers;
+    return second == WIDE_MISS ? 0u : group;
+}
+
 /// Visits an inner node of the wide tree: returns the child to visit next, the nearest one that is met, and
-/// pushes the others that are met, the farthest first.
+/// keeps the others that are met for later.
 uint visitWideNode(BoxRay ray, INOUT(Traversal) walk)
 {
-    READ(WideNode) node = loadWideNode(walk.ref);
-    tally.boxTests += 4u;
-    FourUints keys = intersectFour(ray, node, walk.tHit);
+    // With registers the children are read of the node that the walk goes on from
+    FourUints absent = STACK_IN_REGISTERS ? allBitsWhereBeyond(walk.ref >> WIDE_CHILDREN_SHIFT)
+                                          : allBitsWhereNone(fourUints(loadWideRefs(walk.ref)));
+    FourUints keys = intersectFour(ray, fourUints(loadWideX(walk.ref)), fourUints(loadWideY(walk.ref)),
+                                   fourUints(loadWideZ(walk.ref)), absent, walk.tHit);
     // A sorting network of five exchanges
     uint a = lesserUint(keys[0], keys[1]);
     uint b = greaterUint(keys[0], keys[1]);
@@ -98,17 +106,23 @@ uint visitWideNode(BoxRay ray, INOUT(Traversal) walk)
     uint second = lesserUint(e, f);
     uint third = greaterUint(e, f);
     uint fourth = greaterUint(b, d);
+    if (STACK_IN_REGISTERS) {
+        uint node = walk.ref & WIDE_INDEX;
+        uint rest = groupOf(node, second, third, fourth);
+        return goDownOrOn(first != WIDE_MISS, node, childNumber(first), rest, walk);
+    }
     if (first == WIDE_MISS) return popRef(walk);
     if (walk.stackSize + 3u > STACK_SIZE) {
         faults |= FAULT_STACK_OVERFLOW;
         return REF_NONE;
     }
+    READ(uvec4) refs = loadWideRefs(walk.ref);
     if (second != WIDE_MISS) {
         if (third != WIDE_MISS) {
-            if (fourth != WIDE_MISS) pushChild(node, fourth, walk);
-            pushChild(node, third, walk);
+            if (fourth != WIDE_MISS) pushChild(refs, fourth, walk);
+            pushChild(refs, third, walk);
         }
-        pushChild(node, second, walk);
+        pushChild(refs, second, walk);
     }
-    return pickByGuess(node.refs, childNumber(first));
+    return pickByGuess(refs, childNumber(first));
 }

@@ -75,9 +75,9 @@ struct Traversal
     float b2;
     uint inside;       // instance that the walk is in, or NO_INSTANCE: in the world
     uint instance;     // that the closest hit is in, or NO_INSTANCE
+    uint group;        // STACK_IN_REGISTERS: what is next on the stack (pathtrace/stack.glsl)
     uint unused0;
     uint unused1;
-    uint unused2;
 };
 GPU_STRUCT_SIZE(Traversal, 48);
 

@@ -8,7 +8,7 @@
 SHARED_BEGIN
 
 // A reference to something in the tree is one uint:
-//   inner node   its index in `nodes`
+//   inner node   its index in `nodes`; of a wide one also, from bit WIDE_CHILDREN_SHIFT on, its children - 1
 //   leaf         REF_LEAF | first primitive << 3 | (primitive count - 1)
 //   instance     REF_INSTANCE | its index in `instances`
 //   way back     REF_LEAVE, only on the stack: the walk leaves the instance that it is in
@@ -23,6 +23,9 @@ SHARED_CONST uint LEAF_COUNT_BITS = 3u;
 SHARED_CONST uint MAX_LEAF_SIZE = 8u;
 SHARED_CONST uint MAX_PRIMITIVES = 0x0ffffff0u;  // so that no leaf reference equals REF_NONE
 SHARED_CONST uint MAX_STACK_SIZE = 64u;         // bound of the tree's depth
+SHARED_CONST uint STACK_REGISTERS = 16u;        // of a stack in registers
+SHARED_CONST uint WIDE_CHILDREN_SHIFT = 28u;
+SHARED_CONST uint WIDE_INDEX = 0x00ffffffu;     // bits of the index of a wide node
 SHARED_CONST uint SHAPE_FLAT = 0xffffffffu;    // a triangle without normals or texture coordinates
 SHARED_CONST uint SHAPE_SPHERE = 0xfffffffeu;
 SHARED_CONST uint NO_HIT = 0xffffffffu;

@@ -39,7 +39,7 @@ void put(Probe p)
 void put(Traversal w)
 {
     put(w.ref); put(w.stackSize); put(w.slot); put(w.number); put(w.tHit); put(w.b1); put(w.b2);
-    put(w.inside); put(w.instance); put(w.unused0); put(w.unused1); put(w.unused2);
+    put(w.inside); put(w.instance); put(w.group); put(w.unused0); put(w.unused1);
 }
 
 void main()

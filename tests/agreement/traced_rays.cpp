@@ -68,11 +68,43 @@ TEST_F(TracedRays, haveTheBitsOfTheReference)
 
 TEST_F(TracedRays, haveTheBitsOfTheReferenceOutOfStepsTimeAndAgain)
 {
+    for (const char* variant : {"texel-8x8-by8", "texel-8x8-by8-registers"}) {
+        SCOPED_TRACE(variant);
+        DeviceOptions options;
+        options.stepBudget = 7;
+        options.variant = variant;
+        const auto device = openFirstDevice(options);
+        expectSameBits(*device, teapot(), 1000);
+        expectSameBits(*device, fromFile("tests/scenes/instances.json"), 1000);
+    }
+}
+
+/// Triangles in a row, each a little larger than the one before: the tree is cut off one by one.
+TEST_F(TracedRays, haveTheBitsOfTheReferenceInTreesTooHighForRegisters)
+{
+    Scene scene = builtInScene(smallPicture(8, 8, 1));
+    scene.primitives.clear();
+    scene.objectStarts = {0};
+    float size = 1e-20f;  // to 3
+    for (int i = 0; i < 180; i++, size *= 1.3f) {
+        const vec3 at = vec3(size, 0, 0);
+        addTriangle(scene.primitives, at, at + vec3(size / 8, size, 0), at + vec3(0, 0, size));
+    }
+    const PreparedScene prepared = prepareScene(std::move(scene), BvhBuild::sweep, 1);
+    ASSERT_GT(prepared.deviceScene().wide.worstGroups, STACK_REGISTERS + 1);
     DeviceOptions options;
-    options.stepBudget = 7;
+    options.variant = "texel-8x8-by8-registers";
+    std::vector<TraceHit> expected(1000), found(1000);
     const auto device = openFirstDevice(options);
-    expectSameBits(*device, teapot(), 1000);
-    expectSameBits(*device, fromFile("tests/scenes/instances.json"), 1000);
+    const auto cpu = makeCpuDevice({});
+    const std::vector<TraceRay> rays = someRays(prepared, expected.size());
+    for (Device* each : {device.get(), cpu.get()}) {
+        each->setScene(prepared.deviceScene());
+        each->traceRays(rays, false, each == cpu.get() ? expected : found);
+    }
+    EXPECT_EQ(std::memcmp(found.data(), expected.data(), found.size() * sizeof(TraceHit)), 0);
+    const auto isHit = [](const TraceHit& hit) { return hit.number != NO_HIT; };
+    EXPECT_GT(std::count_if(expected.begin(), expected.end(), isHit), 10);
 }
 
 TEST_F(TracedRays, haveTheBitsOfTheReferenceThroughStorageBuffers)

@@ -35,26 +35,35 @@ public:
     {
     }
 
-    /// Returns the box of all primitives below, and in `pending` how many references wait at most.
-    Box visit(uint ref, vec3 gridAt, uint gridScale, uint& pending)
+    /// What waits at most: references, or nodes of which children wait.
+    struct Waiting {
+        uint references = 0, groups = 0;
+    };
+
+    /// Returns the box of all primitives below, and what waits.
+    Box visit(uint ref, vec3 gridAt, uint gridScale, Waiting& waiting)
     {
-        pending = 0;
+        waiting = {};
         if ((ref & REF_NOT_INNER) != 0) return visitLeaf(ref);
-        visited_.at(ref)++;
-        const WideNode& node = wide_.nodes[ref];
+        visited_.at(ref & WIDE_INDEX)++;
+        const WideNode& node = wide_.nodes[ref & WIDE_INDEX];
         Box all;
-        uint children = 0, deepest = 0;
+        uint children = 0;
+        Waiting deepest;
         for (int i = 0; i < 4; i++) {
-            if (node.refs[i] == REF_NONE) continue;
+            if (node.refs[i] == REF_NONE) break;  // children come first
             children++;
-            uint below = 0;
+            Waiting below;
             const Box box = visit(node.refs[i], gridAt, gridScale, below);
-            deepest = std::max(deepest, below);
+            deepest.references = std::max(deepest.references, below.references);
+            deepest.groups = std::max(deepest.groups, below.groups);
             outside += !encloses(boxOnGrid(node, i, gridAt, gridScale), box);
             grow(all, box);
         }
         if (children < 2) throw std::runtime_error("a node of fewer than two children");
-        pending = deepest + children - 1;
+        if (ref >> WIDE_CHILDREN_SHIFT != children - 1)
+            throw std::runtime_error("a reference that miscounts the children");
+        waiting = {deepest.references + children - 1, deepest.groups + 1};
         return all;
     }
 
@@ -113,11 +122,12 @@ void expectSound(const std::vector<Primitive>& primitives, double reach)
     const WideTrees wide = widen(bvh.nodes, {}, bvh.rootRef, reach);
     ASSERT_FALSE(wide.nodes.empty());
     Walk walk(wide, bvh.primitives);
-    uint pending = 0;
-    walk.visit(wide.rootRef, wide.gridAt, wide.gridScale, pending);
+    Walk::Waiting waiting;
+    walk.visit(wide.rootRef, wide.gridAt, wide.gridScale, waiting);
     EXPECT_EQ(walk.outside, 0u);
     EXPECT_TRUE(walk.everythingOnce());
-    EXPECT_EQ(wide.worstPending, pending);
+    EXPECT_EQ(wide.worstPending, waiting.references);
+    EXPECT_EQ(wide.worstGroups, waiting.groups);
     EXPECT_LT(wide.nodes.size(), bvh.nodes.size());
 }
 
@@ -211,17 +221,18 @@ TEST(WideTree, ofInstancesReachesTheTreesOfTheirObjects)
         buildTwoLevels(randomSoup(50, 0.1f, 10), objects, placements, 1, BvhBuild::sweep, 1);
     const WideTrees wide = widen(bvh.nodes, bvh.instances, bvh.rootRef, 1);
     ASSERT_EQ(wide.instances.size(), placements.size());
-    uint pending = 0;
+    Walk::Waiting waiting;
     std::vector<uint> roots;
     for (const ObjectInstance& instance : wide.instances) roots.push_back(instance.rootRef);
     Walk walk(wide, bvh.primitives);
     const ObjectInstance& first = wide.instances[0];
-    walk.visit(first.rootRef, {first.gridX, first.gridY, first.gridZ}, first.gridScale, pending);
+    walk.visit(first.rootRef, {first.gridX, first.gridY, first.gridZ}, first.gridScale, waiting);
     EXPECT_EQ(walk.outside, 0u);
     EXPECT_NE(roots[1] & REF_LEAF, 0u);
     for (uint i = 0; i < roots.size(); i++) EXPECT_EQ(roots[i], roots[i % 2]);
     // What waits in the world, the way back, what waits in the object
-    EXPECT_GT(wide.worstPending, pending + 1);
+    EXPECT_GT(wide.worstPending, waiting.references + 1);
+    EXPECT_GT(wide.worstGroups, waiting.groups + 1);
 }
 
 }  // namespace

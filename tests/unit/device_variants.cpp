@@ -31,6 +31,14 @@ TEST(Variants, haveNamesThatLeadBackToThem)
     }
     EXPECT_EQ(names.size(), allVariants().size());
     EXPECT_TRUE(names.contains("texel-8x8-by8"));
+    EXPECT_TRUE(names.contains("texel-8x8-by8-registers"));
+}
+
+TEST(Variants, areStandardByDriver)
+{
+    EXPECT_TRUE(standardVariant("llvmpipe Mesa 22.3.6 (LLVM 15.0.6)").stackInRegisters);
+    EXPECT_FALSE(standardVariant("SwiftShader driver Subzero").stackInRegisters);
+    EXPECT_FALSE(standardVariant("").stackInRegisters);
 }
 
 TEST(Variants, ofOtherNamesAreRefusedWithAList)

@@ -64,7 +64,8 @@ TestsPerRay countTests(const DeviceScene& scene, const Bvh& tree, bool asWide, c
     WideTrees wide;
     if (asWide) {
         wide = widen(tree.nodes, {}, tree.rootRef, reachOf(scene.frame.camera));
-        changed.wide = {wide.nodes, {}, wide.rootRef, wide.gridAt, wide.gridScale, wide.worstPending};
+        changed.wide = {wide.nodes, {}, wide.rootRef, wide.gridAt, wide.gridScale, wide.worstPending,
+                        wide.worstGroups};
     }
     DeviceOptions options;
     options.threads = threads;
