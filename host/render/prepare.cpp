@@ -98,7 +98,7 @@ void prepareLights(PreparedScene& prepared)
 
 void dropUnwalkedTree(PreparedScene& prepared, uint32_t nodeWidth)
 {
-    if (nodeWidthFor(prepared.deviceScene(), nodeWidth) == 4)
+    if (walkFormFor(prepared.deviceScene(), nodeWidth, false).nodeWidth == 4)
         letGo(prepared.bvh.nodes);
 }
 
