@@ -4,6 +4,7 @@
 #include "app/option_kinds.h"
 #include "app/tune.h"
 #include "device/device.h"
+#include "device/variants.h"
 #include "util/messages.h"
 #include "util/parallel.h"
 
@@ -64,16 +65,22 @@ Command addDevicesCommand(CLI::App& app)
 {
     auto json = std::make_shared<bool>(false);
     auto tune = std::make_shared<bool>(false);
+    auto variants = std::make_shared<bool>(false);
     CLI::App* command =
         app.add_subcommand("devices", "list the devices of this machine")->group("Commands");
     addFlag(*command, "--json", *json, "the list as JSON on stdout");
     addFlag(*command, "--tune", *tune,
             "measure all variants on every Vulkan device and keep\nthe fastest for later starts (docs/variants.md)");
+    addFlag(*command, "--variants", *variants, "the names that --variant takes");
     command->footer("Examples:\n"
                     "  sahl devices\n"
                     "  sahl devices --json\n"
                     "  sahl devices --tune");
-    return [json, tune] {
+    return [json, tune, variants] {
+        if (*variants) {
+            for (const Variant& variant : allVariants()) answer("{}\n", nameOf(variant));
+            return 0;
+        }
         if (*tune) return tuneDevices();
         std::string whyNone;
         std::vector<VulkanDeviceInfo> devices = listVulkanDevices(whyNone);

@@ -5,6 +5,7 @@
 #include "sahl_version.h"
 #include "util/error.h"
 #include "util/interrupt.h"
+#include "util/memory.h"
 #include "util/messages.h"
 
 #include <map>
@@ -87,6 +88,7 @@ int main(int argc, char** argv)
 {
     sahl::openStandardStreams();
     sahl::watchInterrupts();
+    sahl::returnLargeBlocks();
     try {
         return sahl::run(argc, argv);
     } catch (const sahl::Error& error) {

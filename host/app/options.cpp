@@ -166,6 +166,7 @@ PreparedScene prepareSceneFor(const CommonOptions& options,
     if (form == SavedForm::none) {
         Scene scene = loadSceneFor(options);
         onceRead(scene);
+        returnFreedMemory();  // of reading, before the tree needs most
         return prepareScene(std::move(scene), options.bvhBuild, threadsFor(options));
     }
     if (options.bvhBuild != BvhBuild::automatic) {

@@ -25,6 +25,7 @@
 #include "util/gzip.h"
 #include "util/hash.h"
 #include "util/interrupt.h"
+#include "util/memory.h"
 #include "util/messages.h"
 
 #include <algorithm>
@@ -326,6 +327,8 @@ int runRender(RenderOptions& options)
     });
     seconds.build = watch.lap();
     options.hashes = hashesOf(prepared.deviceScene());
+    dropUnwalkedTree(prepared, options.common.deviceOptions.nodeWidth);
+    returnFreedMemory();
     if (options.range.isPart()) sayRange(options);
     if (options.range.skipExisting && areFinished(options.output.paths, expectedPart(options, prepared.scene, filmSettings)))
         return 0;

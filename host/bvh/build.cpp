@@ -58,16 +58,50 @@ void requireSound(std::span<const Primitive> primitives)
     }
 }
 
+BareTree buildWorld(std::span<const Primitive> primitives, BvhBuild build, unsigned threads)
+{
+    if (primitives.size() > MAX_PRIMITIVES) {
+        throw badInput("the scene has {} primitives, more than the {} that the tree can number; "
+                       "simplify or divide the scene",
+                       primitives.size(), MAX_PRIMITIVES);
+    }
+    return buildTree({primitives, {}, {}}, MAX_STACK_SIZE, build, threads);
+}
+
+Bvh timed(Bvh bvh, std::chrono::steady_clock::time_point start)
+{
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    bvh.statistics.primitivesSeen = bvh.primitives.size();
+    bvh.statistics.seconds = elapsed.count();
+    return bvh;
+}
+
+/// primitives[i] becomes what primitives[order[i]] was: along the cycles of the permutation.
+void putInOrder(std::vector<Primitive>& primitives, std::vector<uint> order)
+{
+    for (uint begin = 0; begin < order.size(); begin++) {
+        const Primitive first = primitives[begin];
+        uint to = begin;
+        for (uint from = order[to]; from != begin; from = order[to]) {
+            primitives[to] = primitives[from];
+            order[to] = to;
+            to = from;
+        }
+        primitives[to] = first;
+        order[to] = to;
+    }
+}
+
 }  // namespace
 
-Bvh buildTree(const TreeItems& items, uint levels, BvhBuild build, unsigned threads)
+BareTree buildTree(const TreeItems& items, uint levels, BvhBuild build, unsigned threads)
 {
     const size_t count = items.primitives.size() + items.instanceBoxes.size();
     const bool high = build == BvhBuild::high;
     if (high || build == BvhBuild::automatic)
         build = count < BINNED_FROM ? BvhBuild::sweep : BvhBuild::binned;
 
-    Bvh bvh;
+    BareTree tree;
     if (count > 0) {
         requireSound(items.primitives);
         std::vector<Box> boxes = boxesOf(items.primitives, threads);
@@ -75,25 +109,42 @@ Bvh buildTree(const TreeItems& items, uint levels, BvhBuild build, unsigned thre
         Draft draft = build == BvhBuild::sweep ? buildSweep(boxes, levels, threads)
                                                : buildBinned(boxes, levels, threads);
         if (high) improveByReinsertion(draft, boxes, levels, threads);
-        bvh = flatten(draft, items, boxes, threads);
+        boxes = std::vector<Box>();  // '= {}' would keep their memory
+        tree.bvh = flatten(draft, items, threads);
+        tree.order = std::move(draft.order);
+        if (!items.instanceBoxes.empty())
+            std::erase_if(tree.order, [&](uint number) { return number >= items.primitives.size(); });
     }
-    bvh.statistics.build = high ? BvhBuild::high : build;
-    return bvh;
+    tree.bvh.statistics.build = high ? BvhBuild::high : build;
+    return tree;
+}
+
+Bvh withPrimitives(BareTree tree, std::span<const Primitive> primitives, unsigned threads)
+{
+    std::vector<Primitive>& sorted = tree.bvh.primitives;
+    sorted.resize(tree.order.size());
+    const size_t chunks = (sorted.size() + CHUNK_SIZE - 1) / CHUNK_SIZE;
+    parallelFor(chunks, threads, [&](size_t chunk) {
+        const size_t end = std::min(sorted.size(), (chunk + 1) * CHUNK_SIZE);
+        for (size_t i = chunk * CHUNK_SIZE; i < end; i++) sorted[i] = primitives[tree.order[i]];
+    });
+    return std::move(tree.bvh);
 }
 
 Bvh buildBvh(std::span<const Primitive> primitives, BvhBuild build, unsigned threads)
 {
     const auto start = std::chrono::steady_clock::now();
-    if (primitives.size() > MAX_PRIMITIVES) {
-        throw badInput("the scene has {} primitives, more than the {} that the tree can number; "
-                       "simplify or divide the scene",
-                       primitives.size(), MAX_PRIMITIVES);
-    }
-    Bvh bvh = buildTree({primitives, {}, {}}, MAX_STACK_SIZE, build, threads);
-    bvh.statistics.primitivesSeen = primitives.size();
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    bvh.statistics.seconds = elapsed.count();
-    return bvh;
+    BareTree tree = buildWorld(primitives, build, threads);
+    return timed(withPrimitives(std::move(tree), primitives, threads), start);
+}
+
+Bvh buildBvh(std::vector<Primitive>&& primitives, BvhBuild build, unsigned threads)
+{
+    const auto start = std::chrono::steady_clock::now();
+    BareTree tree = buildWorld(primitives, build, threads);
+    putInOrder(primitives, std::move(tree.order));
+    tree.bvh.primitives = std::move(primitives);
+    return timed(std::move(tree.bvh), start);
 }
 
 }  // namespace sahl

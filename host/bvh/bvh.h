@@ -45,4 +45,8 @@ struct Bvh {
 /// radius is not positive or whose box is not finite.
 Bvh buildBvh(std::span<const Primitive> primitives, BvhBuild build, unsigned threads);
 
+/// The same of primitives that nobody else needs: they are put in order where they are, which spares the
+/// memory of a second array.
+Bvh buildBvh(std::vector<Primitive>&& primitives, BvhBuild build, unsigned threads);
+
 }  // namespace sahl

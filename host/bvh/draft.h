@@ -95,11 +95,21 @@ struct TreeItems {
     std::span<const double> instanceCosts;  ///< expected tests of a ray that meets the box
 };
 
-/// The tree as the device reads it, with its statistics except `seconds` and `build`. An instance
-/// has no leaf but a reference of its own.
-Bvh flatten(const Draft& draft, const TreeItems& items, std::span<const Box> boxes, unsigned threads);
+/// The tree as the device reads it, with its statistics except `seconds` and `build` and without its
+/// primitives, which the leaves take to be in the draft's order. An instance has no leaf but a reference
+/// of its own. Boxes are made once more rather than kept: large scenes need the memory.
+Bvh flatten(const Draft& draft, const TreeItems& items, unsigned threads);
+
+/// A tree whose primitives are still elsewhere.
+struct BareTree {
+    Bvh bvh;                  ///< without primitives
+    std::vector<uint> order;  ///< numbers of the primitives, leaf after leaf
+};
 
 /// Checks the items, picks the builder and flattens: one level of a scene's trees.
-Bvh buildTree(const TreeItems& items, uint levels, BvhBuild build, unsigned threads);
+BareTree buildTree(const TreeItems& items, uint levels, BvhBuild build, unsigned threads);
+
+/// Completes a tree with copies of its primitives.
+Bvh withPrimitives(BareTree tree, std::span<const Primitive> primitives, unsigned threads);
 
 }  // namespace sahl

@@ -32,7 +32,6 @@ struct Extent {
 struct Flattening {
     const Draft& draft;
     const TreeItems& items;
-    std::span<const Box> boxes;
     Bvh& bvh;
 
     bool isInstance(uint number) const { return number >= items.primitives.size(); }
@@ -64,7 +63,7 @@ Flat flattenInstance(uint number, const Flattening& work)
     const uint index = number - static_cast<uint>(work.items.primitives.size());
     Flat flat;
     flat.ref = REF_INSTANCE | index;
-    flat.box = work.boxes[number];
+    flat.box = work.items.instanceBoxes[index];
     flat.primitives = halfArea(flat.box) * work.items.instanceCosts[index];
     return flat;
 }
@@ -87,10 +86,8 @@ Flat flattenLeaf(uint first, uint count, const Flattening& work, Extent& at)
         return flat;
     }
     flat.ref = REF_LEAF | (at.primitives << LEAF_COUNT_BITS) | (count - 1);
-    for (uint number : numbers) {
-        grow(flat.box, work.boxes[number]);
-        bvh.primitives[at.primitives++] = work.items.primitives[number];
-    }
+    for (uint number : numbers) grow(flat.box, boxOf(work.items.primitives[number]));
+    at.primitives += count;
     flat.primitives = halfArea(flat.box) * count;
     flat.leaves = 1;
     flat.largestLeaf = count;
@@ -183,10 +180,10 @@ Flat joinParts(uint slot, const Flattening& work, const std::vector<Part>& parts
 
 }  // namespace
 
-Bvh flatten(const Draft& draft, const TreeItems& items, std::span<const Box> boxes, unsigned threads)
+Bvh flatten(const Draft& draft, const TreeItems& items, unsigned threads)
 {
     Bvh bvh;
-    const Flattening work = {draft, items, boxes, bvh};
+    const Flattening work = {draft, items, bvh};
     std::vector<Part> parts;
     collectParts(0, draft, parts);
     parallelFor(parts.size(), threads, [&](size_t i) { parts[i].extent = extentOf(parts[i].slot, work); });
@@ -194,7 +191,6 @@ Bvh flatten(const Draft& draft, const TreeItems& items, std::span<const Box> box
     size_t part = 0;
     placeParts(0, draft, parts, part, all);
     bvh.nodes.resize(all.nodes);
-    bvh.primitives.resize(all.primitives);
     parallelFor(parts.size(), threads, [&](size_t i) {
         Extent at = parts[i].at;
         parts[i].flat = flattenSubtree(parts[i].slot, work, at);

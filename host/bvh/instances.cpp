@@ -140,7 +140,7 @@ ObjectTrees buildObjects(std::span<const std::vector<Primitive>> objects,
         const std::vector<Primitive>& object = objects[placement.object];
         Bvh& tree = result.trees[placement.object];
         if (!tree.primitives.empty() || object.empty()) continue;
-        tree = buildTree({object, {}, {}}, OBJECT_LEVELS, build, threads);
+        tree = withPrimitives(buildTree({object, {}, {}}, OBJECT_LEVELS, build, threads), object, threads);
         for (const Primitive& primitive : object)
             grow(result.boxes[placement.object], boxOf(primitive));
         result.stored += object.size();
@@ -274,7 +274,8 @@ Bvh buildTwoLevels(std::span<const Primitive> primitives,
         costs.push_back(costOfInstance(built.trees[placement.object]));
     }
 
-    Bvh all = buildTree({primitives, instanceBoxes, costs}, WORLD_LEVELS, build, threads);
+    Bvh all = withPrimitives(buildTree({primitives, instanceBoxes, costs}, WORLD_LEVELS, build, threads),
+                             primitives, threads);
     const std::vector<uint> roots = appendObjects(built.trees, all);
     size_t next = 0;
     for (const Placement& placement : placements) {

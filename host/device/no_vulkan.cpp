@@ -1,4 +1,5 @@
 // Takes the place of vulkan_device.cpp in builds with SAHL_WITH_VULKAN=OFF.
+#include "device/ceilings.h"
 #include "device/device.h"
 #include "util/error.h"
 
@@ -18,6 +19,16 @@ std::vector<VulkanDeviceInfo> listVulkanDevices(std::string& whyNone)
 std::unique_ptr<Device> makeVulkanDevice(uint32_t, const DeviceOptions&)
 {
     throw Error(ErrorKind::noDevice, WHY);
+}
+
+Ceilings measureCeilings(uint32_t, double, uint32_t)
+{
+    throw Error(ErrorKind::noDevice, WHY);
+}
+
+double Ceiling::rate() const
+{
+    return 0;
 }
 
 uint64_t validationMessageCount()

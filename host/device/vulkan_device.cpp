@@ -11,6 +11,7 @@
 #include "device/vulkan_wave.h"
 #include "device/walked_tree.h"
 #include "shared/bindings.h"
+#include "util/memory.h"
 #include "vulkan/pipeline.h"
 
 #include <algorithm>
@@ -174,7 +175,9 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     constants[SPEC_FEATURES] = pipelineFeatures_;
     constants[SPEC_WAVE_RESUMES] = waveResumes ? 1 : 0;
     request.spirv = foldedKernel(request.name, constants);
-    return createComputePipeline(*context_, request);
+    ComputePipeline pipeline = createComputePipeline(*context_, request);
+    returnFreedMemory();  // the driver's compiler leaves some 60 MB
+    return pipeline;
 }
 
 void VulkanDevice::preparePipeline(bool texel, uint32_t features, const WalkForm& form)

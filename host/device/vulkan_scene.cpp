@@ -59,7 +59,9 @@ uint64_t mostRaysPerSample(const DeviceScene& scene)
 uint64_t mostStepsPerSample(const DeviceScene& scene)
 {
     uint64_t rays = mostRaysPerSample(scene);
-    uint64_t once = 2 * uint64_t{scene.nodes.size()} + scene.primitives.size() + 16;
+    // The binary nodes may be gone where the wide ones are walked; of these, any reference is met once.
+    const uint64_t nodes = std::max<uint64_t>(2 * scene.nodes.size(), 4 * scene.wide.nodes.size());
+    uint64_t once = nodes + scene.primitives.size() + 16;
     uint64_t visits = scene.instances.size() + 1;
     constexpr uint64_t MOST = std::numeric_limits<uint64_t>::max();
     return once > MOST / rays / visits ? MOST : rays * once * visits;

@@ -1,5 +1,6 @@
 #include "render/prepare.h"
 
+#include "device/walked_tree.h"
 #include "scene/probe_weights.h"
 
 #include <algorithm>
@@ -8,6 +9,13 @@
 namespace sahl {
 
 namespace {
+
+/// With its memory, which `array = {}` would keep.
+template <class T>
+void letGo(std::vector<T>& array)
+{
+    array = std::vector<T>();
+}
 
 DeviceScene ownArrays(const Scene& scene, const Bvh& bvh)
 {
@@ -88,19 +96,25 @@ void prepareLights(PreparedScene& prepared)
     writeTexelWeights(scene.frame.probe, masses, texels);
 }
 
+void dropUnwalkedTree(PreparedScene& prepared, uint32_t nodeWidth)
+{
+    if (walkFormFor(prepared.deviceScene(), nodeWidth, false).nodeWidth == 4)
+        letGo(prepared.bvh.nodes);
+}
+
 PreparedScene prepareScene(Scene scene, BvhBuild build, unsigned threads)
 {
     PreparedScene prepared;
     if (scene.instances.empty()) {
-        prepared.bvh = buildBvh(scene.primitives, build, threads);
+        prepared.bvh = buildBvh(std::move(scene.primitives), build, threads);
     } else {
         prepared.bvh = buildTwoLevels(scene.primitives, scene.objects, scene.instances,
                                       reachOf(scene.camera), build, threads);
     }
     prepared.scene = std::move(scene);
-    prepared.scene.primitives = {};
-    prepared.scene.objects = {};
-    prepared.scene.instances = {};
+    letGo(prepared.scene.primitives);
+    letGo(prepared.scene.objects);
+    letGo(prepared.scene.instances);
     for (const ObjectInstance& instance : prepared.bvh.instances)
         prepared.scene.objectStarts.push_back(instance.firstNumber);
     prepareWideTrees(prepared);

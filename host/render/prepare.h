@@ -44,6 +44,10 @@ void prepareLights(PreparedScene& prepared);
 /// Makes the trees that rays walk. Called by those who make prepared scenes.
 void prepareWideTrees(PreparedScene& prepared);
 
+/// Lets go of the binary tree where rays walk the wide one and nothing else needs it any more: hashes and
+/// saving do. `nodeWidth`: of DeviceOptions.
+void dropUnwalkedTree(PreparedScene& prepared, uint32_t nodeWidth);
+
 /// Builds the tree and prepares the lights.
 PreparedScene prepareScene(Scene scene, BvhBuild build, unsigned threads);
 

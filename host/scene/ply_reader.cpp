@@ -225,6 +225,8 @@ void readFaces(PlyReading& reading, const PlyElement& element, PlyBody& body)
     const PlyProperty& list = cornersOf(reading, element);
     noteUnused(reading, element, {list.name});
     const bool strips = element.name == "tristrips";
+    constexpr uint64_t LEAST_BYTES = 4;  // of a triangle
+    reading.mesh.triangles.reserve(std::min<uint64_t>(element.count, body.bytesLeft() / LEAST_BYTES));
     for (uint64_t i = 0; i < element.count; i++) {
         body.beginItem(i);
         for (const PlyProperty& property : element.properties) {

@@ -2,6 +2,7 @@
 
 #include "util/error.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -75,6 +76,22 @@ double gibibytes(uint64_t bytes)
 uint64_t availableMemory()
 {
     return std::min({freeOnMachine(), controlGroupLimit(), addressSpaceLimit()});
+}
+
+void returnLargeBlocks()
+{
+#ifdef __GLIBC__
+    // Left alone, glibc raises the first of these to 32 MiB as soon as blocks that large are freed.
+    mallopt(M_MMAP_THRESHOLD, 8 << 20);
+    mallopt(M_TRIM_THRESHOLD, 16 << 20);
+#endif
+}
+
+void returnFreedMemory()
+{
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
 }
 
 void requireMemory(uint64_t bytes, const std::string& what, const std::string& help)

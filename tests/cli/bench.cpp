@@ -105,6 +105,12 @@ TEST_F(BenchOf, render_makesPicturesOfTheSameBrightness)
     }
 }
 
+TEST_F(BenchOf, alone_measuresTheDeviceWithNothingBesideIt)
+{
+    EXPECT_EQ(measured("render", {"--spp", "1", "--alone"})["rows"].size(), 2u);
+    EXPECT_EQ(measured("traversal", {"--alone"})["rows"][0]["tracers"].size(), 1u);
+}
+
 TEST_F(BenchOf, build_countsTheTestsOfEveryTree)
 {
     const nlohmann::json json = measured("build", {"ball.json"});
@@ -129,6 +135,9 @@ TEST_F(BenchOf, scale_drawsAPlot)
     const nlohmann::json json = measured("scale", {"--plot", "scale.png"});
     EXPECT_EQ(json["byTriangles"].size(), 1u);
     EXPECT_EQ(json["bySamples"].size(), 6u);
+    EXPECT_EQ(json["byBounces"].back()["bounces"], 32);
+    EXPECT_EQ(json["growth"]["from"], json["growth"]["to"]) << "there is one row";
+    EXPECT_EQ(json["growth"]["sahl"], 1);
     EXPECT_TRUE(textOf(folder / "scale.png").starts_with("\x89PNG"));
 }
 
@@ -141,9 +150,10 @@ TEST_F(BenchOf, scenesWithInstances_areRefused)
 TEST_F(Bench, namesOfBenchmarks_areChecked)
 {
     expectRefused(sahl({"bench"}), 2,
-                  "sahl: name a benchmark: report, traversal, render, build, start or scale");
+                  "sahl: name a benchmark: report, traversal, render, build, start, scale or ceiling");
     expectRefused(sahl({"bench", "fast"}), 2, "benchmark 'fast' is not known: report");
-    expectRefused(sahl({"bench", "report", "ball.json"}), 2, "measures scenes of its own, not 'ball.json'");
+    expectRefused(sahl({"bench", "report", "ball.json"}), 2, "measures no scenes but its own, not 'ball.json'");
+    expectRefused(sahl({"bench", "ceiling", "--device", "cpu"}), 5, "sahl bench ceiling measures Vulkan devices");
     expectRefused(sahl({"bench", "build", "--plot", "x.png"}), 2, "a plot of sahl bench scale alone");
 }
 

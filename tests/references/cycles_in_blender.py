@@ -1,9 +1,10 @@
 """Run by Blender (tested with 3.4): renders the scene that cycles.py wrote, once for every file named.
-Arguments behind "--": the scene, samples per pixel, files."""
+Arguments behind "--": the scene, samples per pixel, files. Prints "CPU SECONDS" for each, of all threads."""
 
 import json
 import math
 import sys
+import time
 
 import bpy
 from mathutils import Matrix, Vector
@@ -79,7 +80,8 @@ def make_camera(scene, plain):
 
 
 def set_up_render(scene, plain, samples):
-    """Plain path tracing: nothing adaptive, clamped, denoised or blurred, no roulette, a box as pixel filter."""
+    """Plain path tracing: nothing adaptive, clamped, denoised or blurred, a box as pixel filter; roulette where the
+    scene asks for it."""
     render, cycles = scene.render, scene.cycles
     render.engine = "CYCLES"
     render.resolution_x, render.resolution_y, render.resolution_percentage = plain["width"], plain["height"], 100
@@ -89,7 +91,10 @@ def set_up_render(scene, plain, samples):
     # A path of theirs with N bounces sees what a path of ours with N + 1 scatterings sees.
     bounces = plain["bounces"] - 1
     cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = bounces
-    cycles.min_light_bounces = cycles.min_transparent_bounces = bounces + 2
+    if not plain.get("roulette"):
+        cycles.min_light_bounces = cycles.min_transparent_bounces = bounces + 2
+    if "threads" in plain:
+        render.threads_mode, render.threads = "FIXED", plain["threads"]
     cycles.device, cycles.samples = "CPU", samples
     cycles.use_adaptive_sampling = cycles.use_denoising = False
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = 0
@@ -110,7 +115,9 @@ def main():
     for seed, picture in enumerate(pictures):
         scene.cycles.seed = seed
         scene.render.filepath = picture
+        before = time.process_time()
         bpy.ops.render.render(write_still=True)
+        print(f"CPU {time.process_time() - before}", flush=True)
 
 
 main()

@@ -259,6 +259,17 @@ TEST(Bvh, threads_doNotChangeTheBits)
     }
 }
 
+TEST(Bvh, primitivesGivenAway_makeTheTreeThatTheirCopiesMake)
+{
+    for (const Named& input : nastyInputs()) {
+        SCOPED_TRACE(input.name);
+        std::vector<Primitive> given = input.triangles;
+        EXPECT_TRUE(sameBits(buildBvh(input.triangles, BvhBuild::binned, 2),
+                             buildBvh(std::move(given), BvhBuild::binned, 2)));
+        EXPECT_EQ(given.capacity(), 0u);
+    }
+}
+
 TEST(Bvh, threads_doNotChangeTheBitsOfHighQuality)
 {
     for (const std::vector<Primitive>& triangles : {randomSoup(5000, 0.05f, 7), testing::torus(60, 40)}) {
@@ -288,7 +299,7 @@ TEST(Bvh, depth_isCutAtTheStackSize)
 TEST(Bvh, noTriangles_makeNoTree)
 {
     for (BvhBuild build : {BvhBuild::automatic, BvhBuild::sweep, BvhBuild::binned, BvhBuild::high}) {
-        const Bvh bvh = buildBvh({}, build, 2);
+        const Bvh bvh = buildBvh(std::span<const Primitive>(), build, 2);
         EXPECT_EQ(bvh.rootRef, REF_NONE);
         EXPECT_TRUE(bvh.nodes.empty());
         EXPECT_TRUE(bvh.primitives.empty());

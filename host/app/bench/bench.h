@@ -18,6 +18,7 @@ struct BenchOptions {
     uint32_t repeat = 0;     ///< 0: 3 for the report's, else 5
     uint32_t spp = 16;
     uint32_t triangles = 0;  ///< of a generated scene; of scale the most; 0: the benchmark's own
+    bool alone = false;      ///< the device, without the CPU and Embree beside it
 };
 
 /// Each prints its table and returns what is saved as JSON: keys are in docs/bench.md. They return early,
@@ -28,5 +29,6 @@ nlohmann::ordered_json benchRender(const BenchOptions& options);
 nlohmann::ordered_json benchBuild(const BenchOptions& options);
 nlohmann::ordered_json benchStart(const BenchOptions& options);
 nlohmann::ordered_json benchScale(const BenchOptions& options);
+nlohmann::ordered_json benchCeiling(const BenchOptions& options);
 
 }  // namespace sahl

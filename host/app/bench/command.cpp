@@ -25,7 +25,8 @@ struct Benchmark {
 
 constexpr Benchmark BENCHMARKS[] = {{"report", benchReport}, {"traversal", benchTraversal},
                                     {"render", benchRender}, {"build", benchBuild},
-                                    {"start", benchStart},   {"scale", benchScale}};
+                                    {"start", benchStart},   {"scale", benchScale},
+                                    {"ceiling", benchCeiling}};
 
 const Benchmark& benchmarkCalled(const std::string& name)
 {
@@ -42,9 +43,10 @@ int runBench(const BenchOptions& options)
 {
     setQuiet(options.common.quiet);
     const Benchmark& benchmark = benchmarkCalled(options.benchmark);
-    const bool takesScenes = options.benchmark != "report" && options.benchmark != "scale";
+    const bool takesScenes =
+        options.benchmark != "report" && options.benchmark != "scale" && options.benchmark != "ceiling";
     if (!takesScenes && !options.scenes.empty())
-        throw usageError("sahl bench {} measures scenes of its own, not '{}'", options.benchmark,
+        throw usageError("sahl bench {} measures no scenes but its own, not '{}'", options.benchmark,
                          options.scenes.front());
     if (!options.plotPath.empty() && options.benchmark != "scale")
         throw usageError("--plot: there is a plot of sahl bench scale alone");
@@ -72,7 +74,8 @@ Command addBenchCommand(CLI::App& app)
         ->add_option("benchmark", options->benchmark,
                      "report: its figure 11; traversal: rays by kind; render: the common work;\n"
                      "build: trees, how long they take and how good they are; start: to the first\n"
-                     "sample; scale: growth with triangles, threads, pixels and samples")
+                     "sample; scale: growth with triangles, threads, pixels, samples and bounces;\n"
+                     "ceiling: what the device can do at most")
         ->type_name("NAME");
     command->add_option("scenes", options->scenes,
                         withDefault("meshes or scene files without instances", "two that are generated"))
@@ -100,6 +103,9 @@ Command addBenchCommand(CLI::App& app)
     command->add_option("--plot", options->plotPath, withDefault("scale: write plots as PNG", "none"))
         ->type_name("FILE")
         ->group("Output");
+    addFlag(*command, "--alone", options->alone,
+            "traversal, render, scale: the device without the CPU and\nEmbree beside it")
+        ->group("Device");
     addTreeOptions(*command, options->common);
     addDeviceOptions(*command, options->common);
     addMessageOptions(*command, options->common);

@@ -55,15 +55,17 @@ Json benchRender(const BenchOptions& options)
     const uint32_t rounds = options.repeat > 0 ? options.repeat : ROUNDS;
     std::vector<std::unique_ptr<Device>> devices;
     devices.push_back(openDeviceFor(options.common));
-    if (devices[0]->info().kind != "cpu") devices.push_back(makeCpuDevice(options.common.deviceOptions));
-    const std::string embree = embreeVersion();
-    if (embree.empty()) say("no comparison with Embree: {}\n", whyNoEmbree());
+    if (!options.alone && devices[0]->info().kind != "cpu")
+        devices.push_back(makeCpuDevice(options.common.deviceOptions));
+    const std::string embree = options.alone ? "" : embreeVersion();
+    if (embree.empty() && !options.alone) say("no comparison with Embree: {}\n", whyNoEmbree());
 
     Json rows = Json::array();
     std::vector<TableRow> table;
     for (Scene& scene : commonScenes(options)) {
         if (interruptSignal() != 0) break;
-        const auto theirs = makeEmbreeScene(scene.primitives, EmbreeBuild::standard, threads);
+        const auto theirs =
+            options.alone ? nullptr : makeEmbreeScene(scene.primitives, EmbreeBuild::standard, threads);
         const std::string name = scene.name;
         const PreparedScene prepared = prepareScene(std::move(scene), options.common.bvhBuild, threads);
         std::vector<Contestant> contestants;

@@ -86,12 +86,13 @@ Json benchTraversal(const BenchOptions& options)
     const unsigned threads = threadsFor(options.common);
     const uint32_t rounds = options.repeat > 0 ? options.repeat : ROUNDS;
     const std::unique_ptr<Device> device = openDeviceFor(options.common);
-    const std::string embree = embreeVersion();
-    if (embree.empty()) say("no comparison with Embree: {}\n", whyNoEmbree());
+    const std::string embree = options.alone ? "" : embreeVersion();
+    if (embree.empty() && !options.alone) say("no comparison with Embree: {}\n", whyNoEmbree());
     Json rows = Json::array();
     std::vector<TableRow> table;
     for (Scene& scene : commonScenes(options)) {
-        const auto theirs = makeEmbreeScene(scene.primitives, EmbreeBuild::standard, threads);
+        const auto theirs =
+            options.alone ? nullptr : makeEmbreeScene(scene.primitives, EmbreeBuild::standard, threads);
         const std::string name = scene.name;
         const PreparedScene prepared = prepareScene(std::move(scene), options.common.bvhBuild, threads);
         device->setScene(prepared.deviceScene());
