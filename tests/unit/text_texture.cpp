@@ -47,6 +47,25 @@ TextureLook lookOf(bool clamps, bool nearest)
 /// 2 x 2 texels: 40 and 80 below, 120 and 240 above.
 const std::vector<uint32_t> FOUR = {grey(120), grey(240), grey(40), grey(80)};
 
+/// A triangle over the picture's lower left half: u is b1, v is b2.
+TEST(Texture, withAlphaBelowTheCutoffLeavesAHole)
+{
+    TextureKernel kernel;
+    Material material = {};
+    material.alphaCutoff = 100.0f / 255;
+    material.baseColorTexture = kernel.add(2, 2, FOUR, lookOf(true, true));
+    const std::vector<Material> materials = {material};
+    TriangleCorners corners = {};
+    corners.u1 = corners.v2 = 1;
+    const std::vector<TriangleCorners> triangleCorners = {corners};
+    kernel.materials = materials;
+    kernel.triangleCorners = triangleCorners;
+    const Primitive triangle = {};
+    EXPECT_TRUE(kernel.isCutOut(triangle, NO_MATERIAL, 0.25f, 0.25f));  // 40
+    EXPECT_TRUE(kernel.isCutOut(triangle, NO_MATERIAL, 0.6f, 0.25f));   // 80
+    EXPECT_FALSE(kernel.isCutOut(triangle, NO_MATERIAL, 0.25f, 0.6f));  // 120
+}
+
 TEST(Texture, ofFourTexels_isWhatOneCountsByHand)
 {
     TextureKernel kernel;
@@ -117,8 +136,8 @@ double filtered(const std::vector<uint32_t>& rgba, int width, int height, double
            (texel(left, low + 1) * (1 - fx) + texel(left + 1, low + 1) * fx) * fy;
 }
 
-/// A coordinate below 8 is known to 2^-22 of a period, a place among 64 texels hence to 2^-16 of a texel; texels
-/// differ by 1 at most.
+/// A coordinate below 8 is known to 2^-22 of a period, a place among 64 texels hence to 2^-16 of a
+/// texel; texels differ by 1 at most.
 TEST(Texture, equalsTheFilterInDoublePrecision)
 {
     std::mt19937 random(5);
