@@ -66,6 +66,18 @@ TEST(Texture, withAlphaBelowTheCutoffLeavesAHole)
     EXPECT_FALSE(kernel.isCutOut(triangle, NO_MATERIAL, 0.25f, 0.6f));  // 120
 }
 
+TEST(Texture, ofEmissionIsTimesTheMaterialsOwn)
+{
+    TextureKernel kernel;
+    Material material = {};
+    material.emission = vec3(2, 3, 40);
+    EXPECT_EQ(kernel.emittedAt(material, 0.25f, 0.25f), material.emission);
+    material.emissionTexture = kernel.add(2, 2, FOUR, lookOf(true, true));
+    const vec3 emitted = kernel.emittedAt(material, 0.25f, 0.25f);
+    EXPECT_NEAR(emitted.x, 2 * 40 * STEP, 1e-6);
+    EXPECT_NEAR(emitted.z, 40 * 40 * STEP, 1e-5);
+}
+
 TEST(Texture, ofFourTexels_isWhatOneCountsByHand)
 {
     TextureKernel kernel;
