@@ -53,7 +53,6 @@ struct Kernel {
     Frame frame = {};
 
     const BvhNode& loadNode(uint index) const { return nodes[index]; }
-    const WideNode& loadWideNode(uint index) const { return wideNodes[index]; }
     /// By an offset of 32 bits, in which the number of children is shifted out.
     const WideNode& wideNodeOf(uint ref) const
     {

@@ -44,12 +44,6 @@ SCENE_BUFFER(BINDING_TABLES, tableWords);
 SCENE_BUFFER(BINDING_PROBE, probeWords);
 layout(set = 0, binding = BINDING_INSTANCES) uniform utextureBuffer instanceWords;
 
-WideNode loadWideNode(uint index)
-{
-    return WideNode(FETCH(nodeWords, index * 4u), FETCH(nodeWords, index * 4u + 1u),
-                    FETCH(nodeWords, index * 4u + 2u), FETCH(nodeWords, index * 4u + 3u));
-}
-
 // Of the node that a reference or a number names.
 uvec4 loadWideX(uint ref) { return FETCH(nodeWords, (ref & WIDE_INDEX) * 4u); }
 uvec4 loadWideY(uint ref) { return FETCH(nodeWords, (ref & WIDE_INDEX) * 4u + 1u); }

@@ -51,8 +51,8 @@ bool pushGroup(bool wanted, INOUT(Traversal) walk)
 /// The group without the child that is visited next.
 uint groupWithoutNext(uint group) { return ((group - GROUP_ONE) & ~0x3fu) | ((group >> 2u) & 0xfu); }
 
-/// With STACK_IN_REGISTERS: goes down to a child of the node that was visited, or on to the next one that waits. One piece of text
-/// does both, since machines that run invocations in step do the work of both whichever a walk needs.
+/// With STACK_IN_REGISTERS: goes down to a child of the node that was visited, or on to the next one that waits. One
+/// piece of text does both, since machines that run invocations in step do the work of both whichever a walk needs.
 ///   node, number  which child to go down to
 ///   rest          group of the node's children that are to wait, 0 for none; none where the walk does not go down
 ///   returns       the child, REF_NONE where the walk does not go down and nothing waits
