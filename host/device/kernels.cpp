@@ -1,5 +1,6 @@
 #include "device/kernels.h"
 
+#include "device/kept_kernels.h"
 #include "kernels/spirv.h"
 #include "vulkan/fold_constants.h"
 
@@ -18,9 +19,15 @@ std::span<const uint32_t> foldedKernel(const std::string& name,
         auto found = made.find({name, constants});
         if (found != made.end()) return found->second;
     }
-    std::vector<uint32_t> folded = foldedConstants(kernelSpirv(name), constants);
+    const std::span<const uint32_t> spirv = kernelSpirv(name);
+    const uint64_t key = kernelKey(spirv, constants);
+    std::optional<std::vector<uint32_t>> folded = keptKernel(key);
+    if (!folded) {
+        folded = foldedConstants(spirv, constants);
+        keepKernel(key, *folded);
+    }
     std::lock_guard lock(mutex);
-    return made.emplace(std::pair(name, constants), std::move(folded)).first->second;
+    return made.emplace(std::pair(name, constants), std::move(*folded)).first->second;
 }
 
 }  // namespace sahl

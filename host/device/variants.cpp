@@ -1,5 +1,6 @@
 #include "device/variants.h"
 
+#include "util/cache_folder.h"
 #include "util/error.h"
 #include "util/files.h"
 
@@ -90,10 +91,8 @@ Variant standardVariant(const std::string& driver)
 
 std::string tuningFile()
 {
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    if (cache && *cache) return (fs::path(cache) / "sahl" / "variants.tsv").string();
-    const char* home = std::getenv("HOME");
-    return home && *home ? (fs::path(home) / ".cache" / "sahl" / "variants.tsv").string() : "";
+    const fs::path folder = cacheFolder();
+    return folder.empty() ? "" : (folder / "variants.tsv").string();
 }
 
 std::optional<Variant> tunedVariant(const std::string& device, const std::string& driver)

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace sahl {
@@ -13,5 +14,8 @@ namespace sahl {
 /// or rearranged. Throws deviceLost when the module cannot be read.
 std::vector<uint32_t> foldedConstants(std::span<const uint32_t> spirv,
                                       std::span<const uint32_t> values);
+
+/// What that does, in words: of other words the results may be others.
+std::string foldingPasses();
 
 }  // namespace sahl
