@@ -1,6 +1,7 @@
 #include "device/vulkan_adaptive.h"
 
 #include "device/adaptive_schedule.h"
+#include "device/driver_habits.h"
 #include "device/kernels.h"
 #include "shared/bindings.h"
 #include "util/error.h"
@@ -277,6 +278,7 @@ AdaptivePipelines makeAdaptivePipelines(Context& context, ComputePipeline path,
     constants[SPEC_GROUP_WIDTH] = group[0];
     constants[SPEC_GROUP_HEIGHT] = group[1];
     constants[SPEC_EXACT_MATH] = exactMath ? 1 : 0;
+    constants[SPEC_UNIFORMS_HIDDEN] = compilesForUniforms(context.physical.driver) ? 1 : 0;
     request.spirv = foldedKernel(request.name, constants);
     request.bindings = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
     request.pushConstantBytes = sizeof(AdaptiveDispatch);

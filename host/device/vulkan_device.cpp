@@ -1,5 +1,6 @@
 // The Device that runs the path tracing kernels on Vulkan.
 #include "device/bounded_work.h"
+#include "device/driver_habits.h"
 #include "device/exact_math.h"
 #include "device/kernels.h"
 #include "device/scene_features.h"
@@ -174,6 +175,7 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     constants[SPEC_EXACT_MATH] = statistics_.exactMath ? 1 : 0;
     constants[SPEC_FEATURES] = pipelineFeatures_;
     constants[SPEC_WAVE_RESUMES] = waveResumes ? 1 : 0;
+    constants[SPEC_UNIFORMS_HIDDEN] = compilesForUniforms(context_->physical.driver) ? 1 : 0;
     request.spirv = foldedKernel(request.name, constants);
     ComputePipeline pipeline = createComputePipeline(*context_, request);
     returnFreedMemory();  // the driver's compiler leaves some 60 MB

@@ -1,5 +1,6 @@
 #include "device/vulkan_wave.h"
 
+#include "device/driver_habits.h"
 #include "device/kernels.h"
 #include "shared/bindings.h"
 #include "shared/wave_types.h"
@@ -53,6 +54,7 @@ VulkanWaves::VulkanWaves(Context& context, const WaveSetup& setup, const MakeWav
     std::vector<uint32_t> constants(SPEC_COUNT);
     constants[SPEC_GROUP_WIDTH] = setup.groupSize;
     constants[SPEC_GROUP_HEIGHT] = 1;
+    constants[SPEC_UNIFORMS_HIDDEN] = compilesForUniforms(context.physical.driver) ? 1 : 0;
     plan.spirv = foldedKernel(plan.name, constants);
     plan.bindings = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
     plan.pushConstantBytes = sizeof(WaveDispatch);

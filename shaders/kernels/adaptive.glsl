@@ -1,6 +1,7 @@
 // What kernels of adaptive sampling share: the pixels of a tile and the queues in them. The includer
 // defines ADAPTIVE_BINDING.
 
+#include "kernels/uniforms.glsl"
 #include "shared/adaptive_types.h"
 #include "shared/bindings.h"
 
@@ -13,8 +14,9 @@ layout(std430, set = 0, binding = ADAPTIVE_BINDING) buffer AdaptiveBlock
 };
 layout(push_constant) uniform AdaptiveDispatchBlock
 {
-    AdaptiveDispatch job;
+    AdaptiveDispatch jobs[1];
 };
+#define job jobs[UNIFORMS_AT]
 
 /// Place of this invocation in the queue, from 0 to job.queueSize - 1 or beyond its end.
 uint queueSlot()

@@ -20,11 +20,13 @@ layout(constant_id = SPEC_EXACT_MATH) const bool EXACT_MATH = false;
 layout(constant_id = SPEC_FEATURES) const uint FEATURES = FEATURES_ALL;
 
 #include "kernels/four.glsl"
+#include "kernels/uniforms.glsl"
 
 layout(std140, set = 0, binding = BINDING_FRAME) uniform FrameBlock
 {
-    Frame frame;
+    Frame frames[1];
 };
+#define frame frames[UNIFORMS_AT]
 
 #ifdef SAHL_TEXEL_BUFFERS
 #define SCENE_BUFFER(bindingIndex, name) layout(set = 0, binding = bindingIndex) uniform utextureBuffer name

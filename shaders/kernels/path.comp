@@ -25,8 +25,9 @@ layout(std430, set = 0, binding = BINDING_FIRST_HITS) buffer FirstHitsBlock
 #endif
 layout(push_constant) uniform DispatchBlock
 {
-    Dispatch job;
+    Dispatch jobs[1];
 };
+#define job jobs[UNIFORMS_AT]
 
 #include "pathtrace/pathtrace.glsl"
 #include "kernels/suspend.glsl"

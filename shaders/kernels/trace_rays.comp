@@ -22,8 +22,9 @@ layout(std430, set = 0, binding = BINDING_RAY_WALKS) buffer WalksBlock
 };
 layout(push_constant) uniform DispatchBlock
 {
-    TraceDispatch job;
+    TraceDispatch jobs[1];
 };
+#define job jobs[UNIFORMS_AT]
 
 #include "pathtrace/pathtrace.glsl"
 

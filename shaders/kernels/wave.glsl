@@ -1,6 +1,7 @@
 // What the kernels of waves share: the queues, and the invocation's entry in them. The includer defines
 // WAVE_QUEUES_BINDING.
 
+#include "kernels/uniforms.glsl"
 #include "shared/bindings.h"
 #include "shared/wave_types.h"
 
@@ -13,8 +14,9 @@ layout(std430, set = 0, binding = WAVE_QUEUES_BINDING) buffer WaveQueuesBlock
 };
 layout(push_constant) uniform WaveDispatchBlock
 {
-    WaveDispatch job;
+    WaveDispatch jobs[1];
 };
+#define job jobs[UNIFORMS_AT]
 
 /// Number of this invocation in its dispatch: the place of its entry in the queue, or beyond its end.
 uint waveInvocation()

@@ -48,7 +48,8 @@ SHARED_CONST uint SPEC_FEATURES = 5u;      // what the scene has: FEATURE_* of f
 SHARED_CONST uint SPEC_NODE_WIDTH = 6u;    // children of a node: 2, or 4 for the wide tree
 SHARED_CONST uint SPEC_STACK_IN_REGISTERS = 7u;  // 1: with NODE_WIDTH 4 only
 SHARED_CONST uint SPEC_WAVE_RESUMES = 8u;  // 1: walks that run out of steps are saved (kernels/wave_trace.comp)
-SHARED_CONST uint SPEC_COUNT = 9u;
+SHARED_CONST uint SPEC_UNIFORMS_HIDDEN = 9u;  // 1: see kernels/uniforms.glsl
+SHARED_CONST uint SPEC_COUNT = 10u;
 
 // Order in which the children of a node are visited. It changes the counters, never a hit.
 SHARED_CONST uint ORDER_NEAR_FIRST = 0u;
