@@ -28,7 +28,8 @@ bool shines(const Material& material)
 uint32_t featuresOf(const Probe& probe)
 {
     if (probe.height == 0) return 0;
-    return probe.mapping == PROBE_ANGULAR ? FEATURE_ANGULAR : FEATURE_LATLONG;
+    return (probe.mapping == PROBE_ANGULAR ? FEATURE_ANGULAR : FEATURE_LATLONG) |
+           featureIf(probe.width > 1 || probe.height > 1, FEATURE_MANY_TEXELS);
 }
 
 uint32_t featuresOf(const Frame& frame)

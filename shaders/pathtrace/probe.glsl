@@ -51,6 +51,7 @@ vec3 fromProbe(Probe probe, vec3 d)
 vec4 lookUpProbe(Probe probe, vec3 d)
 {
     if (probe.height == 0u) return vec4(0.0f);
+    if (!HAS_MANY_TEXELS || (probe.width == 1u && probe.height == 1u)) return loadProbeTexel(probe.firstTexel);
     bool angular = HAS_ANGULAR && (!HAS_LATLONG || probe.mapping == PROBE_ANGULAR);
     vec2 uv = angular ? angularMapFromDirection(d)
                                                    : latLongFromDirection(d);

@@ -211,8 +211,9 @@ bool mayGoOn(uint steps) { return !WALKS_ARE_WATCHED || steps != 0u; }
 /// Walks on until the closest hit (or, for anyHit, some hit) is known or the steps are spent.
 /// Returns true when the walk is over. Where walks are watched, every loop says whether it ended by its own condition:
 /// a driver that cuts a loop short leaves a fault behind.
-bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) walk)
+bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) state)
 {
+    Traversal walk = state;  // nothing else has a name for it, so that C++ may keep it in registers
     uint steps = stepsLeft;
     uint nodesVisited = 0u;
     uint primitivesVisited = 0u;
@@ -244,5 +245,6 @@ bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) walk)
     tally.boxTests += NODE_WIDTH * nodesVisited;
     tally.primitiveTests += primitivesVisited;
     stepsLeft = steps;
+    state = walk;
     return walk.ref == REF_NONE;
 }

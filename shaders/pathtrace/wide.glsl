@@ -50,7 +50,7 @@ FourUints intersectFour(BoxRay ray, FourUints x, FourUints y, FourUints z, FourU
     Four by = (floatsOf(y >> 16u) - ray.orgHi.y) * ray.inverse.y;
     Four az = (floatsOf(z & 0xffffu) - ray.orgLo.z) * ray.inverse.z;
     Four bz = (floatsOf(z >> 16u) - ray.orgHi.z) * ray.inverse.z;
-    Four entry = positive4(greater4(greater4(lesser4(ax, bx), lesser4(ay, by)), lesser4(az, bz)));
+    Four entry = greater4(greater4(lesser4(ax, bx), lesser4(ay, by)), positive4(lesser4(az, bz)));
     Four leave = lesser4(lesser4(greater4(ax, bx), greater4(ay, by)), lesser4(greater4(az, bz), fours(tMax)));
     FourUints number = fourUints(uvec4(0u, 1u, 2u, 3u));
     if (TRAVERSAL_ORDER == ORDER_RIGHT_FIRST) number = fourUints(uvec4(3u, 2u, 1u, 0u));

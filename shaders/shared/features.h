@@ -22,6 +22,7 @@ SHARED_CONST uint FEATURE_SHAPE_LIGHTS = 2048u;  // shapes that light sampling l
 SHARED_CONST uint FEATURE_PROBE_LIGHT = 4096u;   // likewise the probe
 SHARED_CONST uint FEATURE_LATLONG = 8192u;     // probes of PROBE_LATLONG
 SHARED_CONST uint FEATURE_ANGULAR = 16384u;    // probes of PROBE_ANGULAR
+SHARED_CONST uint FEATURE_MANY_TEXELS = 32768u;  // probes of more than one texel
 SHARED_CONST uint FEATURES_ALL = 0xffffffffu;
 
 SHARED_END

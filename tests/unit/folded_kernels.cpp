@@ -93,7 +93,7 @@ TEST(FoldedKernels, leaveOutWhatASceneHasNoUseFor)
     size_t all = folded("path_texel", FEATURES_ALL).size();
     size_t plain = folded("path_texel", PLAIN).size();
     EXPECT_LT(plain, all / 2);
-    for (uint32_t feature = 1; feature <= FEATURE_ANGULAR; feature *= 2)
+    for (uint32_t feature = 1; feature <= FEATURE_MANY_TEXELS; feature *= 2)
         EXPECT_LT(folded("path_texel", FEATURES_ALL & ~feature).size(), all)
             << "feature " << feature;
 }
