@@ -97,15 +97,23 @@ Estimate frameMean(const Picture& picture)
     return meanOver(picture, count, 0, 0, count, 1);
 }
 
+double relativeError(const Estimate& frame)
+{
+    return std::sqrt(frame.variance) / frame.mean;
+}
+
 constexpr uint32_t PILOT_SAMPLES = 64;
+constexpr double PILOT_ERROR = 0.2;  ///< relative; more is no picture of the term, but darkness
 
 /// Samples a pixel that bring the frame's standard error to `target` of the mean, with a margin of
-/// a tenth for the pilot's own noise. Whole blocks of 8, at least the pilot's.
+/// a tenth for the pilot's own noise. Whole blocks of 8, at least the pilot's; no more where none
+/// would do, as in a picture that is black but should not be.
 uint32_t samplesFor(const Picture& pilot, double target)
 {
-    const Estimate frame = frameMean(pilot);
-    EXPECT_GT(frame.mean, 0);
-    const double ratio = frame.variance / (target * target * frame.mean * frame.mean);
+    const double error = relativeError(frameMean(pilot));
+    EXPECT_LT(error, PILOT_ERROR) << "hardly any light";
+    if (!(error < PILOT_ERROR)) return PILOT_SAMPLES;
+    const double ratio = (error / target) * (error / target);
     const double blocks = std::ceil(1.2 * ratio * PILOT_SAMPLES / BLOCK_SIZE);
     return std::max(PILOT_SAMPLES, static_cast<uint32_t>(blocks) * BLOCK_SIZE);
 }
@@ -186,11 +194,6 @@ double tailOfRange()
 {
     const double m = static_cast<double>(allTerms().size());
     return (1 - std::pow(1 - FAMILY_LEVEL, 1 / m)) / 2;
-}
-
-double relativeError(const Estimate& frame)
-{
-    return std::sqrt(frame.variance) / frame.mean;
 }
 
 /// Every term has its own random numbers, so that the tests are independent: FNV-1a of its name.

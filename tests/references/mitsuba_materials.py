@@ -12,8 +12,9 @@ from mitsuba_xml import Unsupported
 INDICES = {"vacuum": 1.0, "air": 1.000277, "water": 1.333, "bk7": 1.5046, "polypropylene": 1.49,
            "diamond": 2.419}
 
-# Spectra that Mitsuba's own scenes (scenes/cbox/cbox-rgb.xml beside cbox-spectral.xml) give as colours, too.
-SPECTRA = {"400:0, 500:8, 600:15.6, 700:18.4": [18.387, 10.9873, 2.75357],
+# Spectra as colours. The lamps' is the integral over the CIE's curves of 1931; what Mitsuba's scenes/cbox/cbox-rgb.xml
+# has in place of it is 3.2 % too dark. The other is that file's, of lamps' bodies.
+SPECTRA = {"400:0, 500:8, 600:15.6, 700:18.4": [20.698, 10.8563, 2.7662],
            "400:0.78, 500:0.78, 600:0.78, 700:0.78": [0.936461, 0.740433, 0.705267]}
 
 V_DOWN = {"scale": [1, -1], "offset": [0, 1]}

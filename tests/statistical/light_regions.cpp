@@ -1,6 +1,7 @@
 // Both ways of finding light together, against the better one alone: of the whole picture, ray for
 // ray, and of each of its regions, sample for sample.
 #include "support/render_scenes.h"
+#include "support/sample_statistics.h"
 #include "support/veach_scene.h"
 
 #include <fmt/format.h>
@@ -44,20 +45,6 @@ struct Measured {
     double rays = 0;
 };
 
-/// Variance of a sample's luminance about its pixel's mean.
-double varianceOf(const Film& film, size_t i)
-{
-    double sum = 0, sum2 = 0, n = 0;
-    for (const auto& half : film.half) {
-        const HalfPixel& pixel = half[i];
-        sum += 0.2126 * pixel.sum[0].toDouble() + 0.7152 * pixel.sum[1].toDouble() +
-               0.0722 * pixel.sum[2].toDouble();
-        sum2 += pixel.sumY2.toDouble();
-        n += pixel.samples;
-    }
-    return std::max(0.0, (sum2 - sum * sum / n) / (n - 1));
-}
-
 Measured measure(Scene scene, uint32_t way, uint32_t parts, uint32_t spp)
 {
     scene.settings.lightSampling = way;
@@ -69,7 +56,7 @@ Measured measure(Scene scene, uint32_t way, uint32_t parts, uint32_t spp)
         double regions[COLUMNS * ROWS] = {}, frame = 0;
         for (uint32_t y = 0; y < film.height; y++) {
             for (uint32_t x = 0; x < film.width; x++) {
-                const double variance = varianceOf(film, size_t{y} * film.width + x);
+                const double variance = sampleStatistics(film, size_t{y} * film.width + x).variance;
                 regions[y * ROWS / film.height * COLUMNS + x * COLUMNS / film.width] += variance;
                 frame += variance;
             }

@@ -2,6 +2,7 @@
 // mean, and both together have less noise than either alone.
 #include "support/light_scenes.h"
 #include "support/render_scenes.h"
+#include "support/sample_statistics.h"
 #include "support/veach_scene.h"
 
 #include <gtest/gtest.h>
@@ -21,18 +22,10 @@ Statistics statisticsOf(const Film& film, uint32_t width, size_t top, size_t bot
     Statistics all;
     const double pixels = double(bottom - top) * width;
     for (size_t i = top * width; i < bottom * width; i++) {
-        double sum = 0, sum2 = 0, n = 0;
-        for (const auto& half : film.half) {
-            const HalfPixel& pixel = half[i];
-            sum += 0.2126 * pixel.sum[0].toDouble() + 0.7152 * pixel.sum[1].toDouble() +
-                   0.0722 * pixel.sum[2].toDouble();
-            sum2 += pixel.sumY2.toDouble();
-            n += pixel.samples;
-        }
-        const double variance = std::max(0.0, (sum2 - sum * sum / n) / (n - 1));
-        all.mean += sum / n / pixels;
-        all.variance += variance / pixels;
-        all.error += variance / n / (pixels * pixels);
+        const SampleStatistics pixel = sampleStatistics(film, i);
+        all.mean += pixel.mean / pixels;
+        all.variance += pixel.variance / pixels;
+        all.error += pixel.variance / pixel.count / (pixels * pixels);
     }
     all.error = std::sqrt(all.error);
     return all;

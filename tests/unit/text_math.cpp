@@ -179,6 +179,16 @@ TEST(Flushed, makesTinyNumbersZero)
     EXPECT_EQ(kernel.flushed(2e-30f), 2e-30f);
 }
 
+/// ITU-R BT.709, item 3.2.
+TEST(Luminance, weighsRedGreenAndBlueAsRec709Does)
+{
+    Kernel<> kernel;
+    EXPECT_EQ(kernel.luminance({1, 0, 0}), 0.2126f);
+    EXPECT_EQ(kernel.luminance({0, 1, 0}), 0.7152f);
+    EXPECT_EQ(kernel.luminance({0, 0, 1}), 0.0722f);
+    EXPECT_FLOAT_EQ(kernel.luminance({1, 1, 1}), 1);
+}
+
 TEST(TangentFrame, isOrthonormalAndRightHanded)
 {
     Kernel<> kernel;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace sahl {
 namespace {
 
@@ -53,6 +55,40 @@ TEST(Roulette, playsFromItsDepthOn)
     EXPECT_NEAR(survivors(70), 300, 4.5 * 14.5);
     kernel.frame.rouletteDepth = NO_ROULETTE;
     EXPECT_EQ(survivors(70), 1000u);
+}
+
+/// Who goes on must not hang on where to. Directions by the cosine have a mean cosine of 2/3 with a
+/// variance of 1/2 - 4/9, and across the normal the mean 0 with a variance of 1/4.
+TEST(Roulette, takesPathsOfAllDirectionsAlike)
+{
+    Kernel kernel = {};
+    Material material = {};
+    material.type = MATERIAL_LAMBERT;
+    material.baseColor = vec3(0.3f);
+    Kernel::SurfaceInteraction isect = {};
+    isect.ng = isect.ns = isect.nsStored = vec3(0, 0, 1);
+    isect.front = true;
+    for (const uint sampler : {SAMPLER_INDEPENDENT, SAMPLER_SOBOL}) {
+        kernel.frame.samplerKind = sampler;
+        int count = 0;
+        double height = 0, across = 0, along = 0;
+        for (uint i = 0; i < 20000; i++) {
+            PathState path = pathOf(0, vec3(1), i);
+            const vec4 u = kernel.random4(path.pixel, i, Kernel::DIMENSION_FIRST_VERTEX);
+            path.dir = vec3(0, 0, -1);
+            if (kernel.sampleNextRay(material, isect, Kernel::DIMENSION_FIRST_VERTEX, u, path) ==
+                Kernel::LOBE_NONE)
+                continue;
+            count++;
+            height += double(path.dir.z);
+            across += double(path.dir.x);
+            along += double(path.dir.y);
+        }
+        EXPECT_NEAR(count, 6000, 4.5 * std::sqrt(20000 * 0.3 * 0.7));
+        EXPECT_NEAR(height / count, 2.0 / 3, 4.5 * std::sqrt(1.0 / 18 / count));
+        EXPECT_NEAR(across / count, 0, 4.5 * std::sqrt(0.25 / count));
+        EXPECT_NEAR(along / count, 0, 4.5 * std::sqrt(0.25 / count));
+    }
 }
 
 TEST(ClampIndirect, scalesWhatIsTooBrightAndCountsIt)

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <random>
 #include <set>
 
@@ -174,6 +175,31 @@ TEST(SobolScrambling, flipsDigitsByTheDigitsAboveThem)
         }
     }
     EXPECT_EQ(permutations.size(), 128u) << "all there are";
+}
+
+/// Along each dimension the 8 samples of a block are 8 strata in some order. There are 56 shuffles
+/// and 128 scramblings; the 8 that flip digits alike everywhere are both, so the orders are 56 128
+/// / 8.
+TEST(SobolScrambling, andShufflingGiveEveryDimensionAllOrdersAlikeOften)
+{
+    Kernel kernel = sobolKernel();
+    constexpr int N = 1 << 16, ORDERS = 56 * 128 / 8;
+    std::array<std::map<uint, int>, 4> counts;
+    for (uint i = 0; i < N; i++) {
+        std::array<uint, 4> orders = {};
+        for (const vec4& point : blockOf(kernel, 9, i, 4)) {
+            for (int c = 0; c < 4; c++)
+                orders[size_t(c)] = orders[size_t(c)] << 3 | uint(point[c] * 8);
+        }
+        for (size_t c = 0; c < 4; c++) counts[c][orders[c]]++;
+    }
+    for (const auto& ofDimension : counts) {
+        EXPECT_EQ(ofDimension.size(), size_t{ORDERS});
+        double chi2 = 0;
+        for (const auto& [order, count] : ofDimension)
+            chi2 += std::pow(count - double(N) / ORDERS, 2) / (double(N) / ORDERS);
+        EXPECT_NEAR(chi2, ORDERS - 1, 4.5 * std::sqrt(2.0 * (ORDERS - 1)));
+    }
 }
 
 TEST(SobolShuffle, takesAnyTwoSamplesToAnyTwoPointsAlikeOften)

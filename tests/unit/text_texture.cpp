@@ -267,6 +267,75 @@ TEST(Texture, knowsItsMean)
     EXPECT_FLOAT_EQ(kernel.textures[1].mean.y, 0.5f);
 }
 
+/// A map's normal at texels whose numbers are its own: 51, 102, 204 of 255 are -0.6, -0.2, 0.6.
+const uint32_t LEANING = packTexel(51, 102, 204, 255);
+
+TEST(NormalMap, hasNormalsFromMinusOneToOne_asLongAsOne)
+{
+    TextureKernel kernel;
+    auto normal = [&](uint32_t texel, float strength) {
+        TextureLook look;
+        look.strength = strength;
+        return kernel.normalInMap(kernel.add(1, 1, {texel}, look), 0.5f, 0.5f);
+    };
+    auto expect = [](vec3 found, double x, double y, double z) {
+        const double length = std::sqrt(x * x + y * y + z * z);
+        EXPECT_NEAR(found.x, x / length, 1e-6);
+        EXPECT_NEAR(found.y, y / length, 1e-6);
+        EXPECT_NEAR(found.z, z / length, 1e-6);
+    };
+    expect(normal(LEANING, 1), -0.6, -0.2, 0.6);
+    expect(normal(LEANING, 2), -1.2, -0.4, 0.6);
+    expect(normal(LEANING, 0), 0, 0, 1);
+    expect(normal(packTexel(255, 0, 255, 0), 1), 1, -1, 1);
+}
+
+/// The shading normal of a triangle in the plane z = 0 under the map LEANING.
+///   corners  its texture coordinates
+///   dir      of the ray that arrives
+vec3 bumped(const TriangleCorners& corners, vec3 dir)
+{
+    TextureKernel kernel;
+    Material material = {};
+    material.normalTexture = kernel.add(1, 1, {LEANING});
+    Primitive triangle = {};
+    triangle.p1 = vec3(2, 0, 0);
+    triangle.p2 = vec3(0, 3, 0);
+    const std::vector<Primitive> primitives = {triangle};
+    const std::vector<TriangleCorners> triangleCorners = {corners};
+    kernel.primitives = primitives;
+    kernel.triangleCorners = triangleCorners;
+    auto hit = kernel.beginTraversal(1);
+    hit.slot = 0;
+    hit.instance = NO_INSTANCE;
+    hit.b1 = hit.b2 = 0.25f;
+    const auto isect = kernel.interactionAt(hit, -dir, dir);
+    return kernel.bumpedInteraction(material, hit, isect).ns;
+}
+
+/// Red leans the normal along u and green along v, wherever the triangle has them: here along the
+/// axes of the world, turned by a right angle, and mirrored.
+TEST(NormalMap, leansAlongTheTexturesAxes)
+{
+    const double length = std::sqrt(0.76);
+    auto expect = [&](vec3 found, double x, double y, double z) {
+        EXPECT_NEAR(found.x, x / length, 1e-6);
+        EXPECT_NEAR(found.y, y / length, 1e-6);
+        EXPECT_NEAR(found.z, z / length, 1e-6);
+    };
+    const vec3 down(0, 0, -1), up(0, 0, 1);
+    TriangleCorners plain = {}, turned = {}, mirrored = {};
+    plain.u1 = plain.v2 = 1;            // u along x, v along y
+    turned.v1 = 1, turned.u2 = -1;      // u along -y, v along x
+    mirrored.u1 = -1, mirrored.v2 = 1;  // u along -x, v along y
+    expect(bumped(plain, down), -0.6, -0.2, 0.6);
+    expect(bumped(turned, down), -0.2, 0.6, 0.6);
+    expect(bumped(mirrored, down), 0.6, -0.2, 0.6);
+    // From behind a dent is a bump: the same normal on the other side.
+    expect(bumped(plain, up), 0.6, 0.2, -0.6);
+    expect(bumped(mirrored, up), -0.6, 0.2, -0.6);
+}
+
 TEST(SphereUv, isThatOfAGlobe)
 {
     reference::Kernel<> kernel;
