@@ -68,9 +68,10 @@ std::optional<std::vector<uint32_t>> keptKernel(uint64_t key)
     if (folderOfKernels().empty() || !fs::exists(fileOf(key), unknown)) return {};
     try {
         const std::vector<uint8_t> bytes = readFile(fileOf(key), LARGEST_FILE);
-        std::vector<uint32_t> words(bytes.size() / sizeof(uint32_t));
-        std::memcpy(words.data(), bytes.data(), words.size() * sizeof(uint32_t));
-        if (words.size() < 2) return {};
+        constexpr size_t WORD = sizeof(uint32_t);
+        if (bytes.size() < 2 * WORD || bytes.size() % WORD != 0) return {};
+        std::vector<uint32_t> words(bytes.size() / WORD);
+        std::memcpy(words.data(), bytes.data(), bytes.size());
         const std::array<uint32_t, 2> seal = {words[words.size() - 2], words[words.size() - 1]};
         words.resize(words.size() - 2);
         if (seal != sealOf(key, words)) return {};
