@@ -8,7 +8,7 @@ namespace sahl {
 
 /// Whether the driver compiles a kernel again for every command buffer where branches depend on uniforms
 /// (kernels/uniforms.glsl). Mesa's lavapipe did in 22.3; 25.0 keeps what it compiles for the values of the uniforms,
-/// which gains a few per cent.
+/// which gains a few per cent. Versions between are taken to be as the former: where that is wrong it costs least.
 ///   driver  as in DeviceInfo
 inline bool compilesForUniforms(const std::string& driver)
 {
