@@ -57,8 +57,9 @@ class Mitsuba(unittest.TestCase):
         return pictures.read_rendered(PROGRAMS.pictures,
                                       witness.render(PROGRAMS, scene, self.folder, name, device=DEVICE))
 
-    def agree(self, name, ours, theirs, samples, sure=SURE, frame=FRAME, level=0.01, blocks=True):
-        """The frame's mean within FRAME, the frame and (where judged) no block further off than noise explains."""
+    def agree(self, name, ours, theirs, samples, sure=SURE, frame=FRAME, level=0.01, unlike=0):
+        """The frame's mean within FRAME, the frame and no block further off than noise explains. Where blocks are
+        known to be `unlike`, no more of them than that, and the frame within FRAME."""
         if not any(theirs.rgb):
             print(f"| {name} | black | | | {samples} |", flush=True)
             self.assertFalse(any(ours.rgb))
@@ -69,9 +70,9 @@ class Mitsuba(unittest.TestCase):
               f"{len(found['differingBlocks'])} of {found['testedBlocks']} | {samples} |", flush=True)
         self.assertLess(error, sure, "too few samples to tell")
         self.assertLessEqual(abs(difference), frame)
-        self.assertFalse(found["frameDiffers"], found["frame"])
-        if blocks:
-            self.assertEqual(found["differingBlocks"], [])
+        self.assertLessEqual(len(found["differingBlocks"]), unlike, found["differingBlocks"])
+        if unlike == 0:
+            self.assertFalse(found["frameDiffers"], found["frame"])
 
     def check(self, scene, name, samples, window=None, sampler="independent", judged=None, **options):
         """A whole picture, or x, y, width, height of it; judged as `agree` does, or otherwise."""
@@ -131,16 +132,18 @@ class Mitsuba(unittest.TestCase):
     def test_glass_a_little_rough(self):
         """Small lamps in Beckmann's glass, and a reference with a standard error of 0.13 %. By quadrature of both
         distributions over this scene the frame is 0.07 % darker under GGX, but blocks are up to 4.6 % off, since
-        highlights are less sharp: the frame alone is judged."""
+        highlights are less sharp."""
         self.check("bsdf_spheres/test_roughdielectric_path.xml", "bsdf_spheres/refs/test_roughdielectric", 32768,
-                   beckmann=NARROW, sampler="sobol", judged={"sure": FRAME / 2, "blocks": False})
+                   beckmann=NARROW, sampler="sobol", judged={"sure": FRAME / 2, "unlike": 14})
 
+    @unittest.expectedFailure
     def test_plastic_that_is_hardly_rough(self):
         """One of four spheres: in theirs the diffuse base loses what the microfacets of a rough coat lose, in ours
         it gets that, so that the others differ by the more the rougher they are. Of this one the base is 0.6 %
-        darker in theirs, which single blocks show: the frame alone is judged."""
+        darker in theirs, why is not known: the frame is off by 0.330 +- 0.088 %, and 5 of 9 blocks differ. Whoever finds
+        the reason is told by this test."""
         self.check("bsdf_spheres/test_roughplastic_linear_path.xml", "bsdf_spheres/refs/test_roughplastic_linear",
-                   16384, window=(0, 0, 24, 24), sampler="sobol", judged={"sure": FRAME / 2, "blocks": False})
+                   65536, window=(0, 0, 24, 24), sampler="sobol")
 
     def test_spot_light_that_shows_a_picture(self):
         """We have no such light. But the camera stands where it does, and there is only direct light: its picture
