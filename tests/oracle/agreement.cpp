@@ -102,7 +102,12 @@ double relativeError(const Estimate& frame)
     return std::sqrt(frame.variance) / frame.mean;
 }
 
-constexpr uint32_t PILOT_SAMPLES = 64;
+/// A small error asks for a pilot that has seen what is seldom, too.
+constexpr uint32_t pilotSamples(double target)
+{
+    return target < 1e-3 ? 2048 : 64;
+}
+
 constexpr double PILOT_ERROR = 0.2;  ///< relative; more is no picture of the term, but darkness
 
 /// Samples a pixel that bring the frame's standard error to `target` of the mean, with a margin of
@@ -110,12 +115,14 @@ constexpr double PILOT_ERROR = 0.2;  ///< relative; more is no picture of the te
 /// would do, as in a picture that is black but should not be.
 uint32_t samplesFor(const Picture& pilot, double target)
 {
+    const uint32_t taken = pilotSamples(target);
+    EXPECT_GT(frameMean(pilot).mean, 0);
     const double error = relativeError(frameMean(pilot));
     EXPECT_LT(error, PILOT_ERROR) << "hardly any light";
-    if (!(error < PILOT_ERROR)) return PILOT_SAMPLES;
+    if (!(error < PILOT_ERROR)) return taken;
     const double ratio = (error / target) * (error / target);
-    const double blocks = std::ceil(1.2 * ratio * PILOT_SAMPLES / BLOCK_SIZE);
-    return std::max(PILOT_SAMPLES, static_cast<uint32_t>(blocks) * BLOCK_SIZE);
+    const double blocks = std::ceil(1.2 * ratio * taken / BLOCK_SIZE);
+    return std::max(taken, static_cast<uint32_t>(blocks) * BLOCK_SIZE);
 }
 
 /// Sahl's picture, with a standard error of the frame of at most `target` of its mean.
@@ -123,9 +130,9 @@ Picture renderSahl(const Scene& scene, double target)
 {
     const PreparedScene prepared = prepareScene(scene, BvhBuild::sweep, 1);
     const auto device = makeCpuDevice({});
-    const Picture pilot = pictureOf(renderFilm(*device, prepared, 0, PILOT_SAMPLES));
+    const Picture pilot = pictureOf(renderFilm(*device, prepared, 0, pilotSamples(target)));
     // Samples after the pilot's: the choice of their number must not depend on them.
-    const Film film = renderFilm(*device, prepared, PILOT_SAMPLES, samplesFor(pilot, target));
+    const Film film = renderFilm(*device, prepared, pilotSamples(target), samplesFor(pilot, target));
     EXPECT_EQ(film.counters.badSamples, 0u);
     return pictureOf(film);
 }
@@ -134,7 +141,7 @@ Picture renderTextbook(const Scene& scene, double target, uint64_t seed)
 {
     const textbook::World world = textbookWorld(scene);
     const unsigned threads = defaultThreadCount();
-    const Picture pilot = pictureOf(textbook::render(world, PILOT_SAMPLES, seed, threads));
+    const Picture pilot = pictureOf(textbook::render(world, pilotSamples(target), seed, threads));
     const int samples = static_cast<int>(samplesFor(pilot, target));
     return pictureOf(textbook::render(world, samples, seed + 1, threads));
 }
