@@ -15,7 +15,8 @@ namespace sahl {
 std::vector<uint32_t> foldedConstants(std::span<const uint32_t> spirv,
                                       std::span<const uint32_t> values);
 
-/// What that does, in words: of other words the results may be others.
+/// What that does, in words: of other words the results may be others. Kept kernels are told apart by
+/// them (device/kept_kernels.h), so that whoever changes what is done has to change these.
 std::string foldingPasses();
 
 }  // namespace sahl
