@@ -178,8 +178,8 @@ TEST(SobolScrambling, flipsDigitsByTheDigitsAboveThem)
 }
 
 /// Along each dimension the 8 samples of a block are 8 strata in some order. There are 56 shuffles
-/// and 128 scramblings; the 8 that flip digits alike everywhere are both, so the orders are 56 128
-/// / 8.
+/// and 128 scramblings; the 8 that flip digits alike everywhere are both, so the orders are 56 times
+/// 16.
 TEST(SobolScrambling, andShufflingGiveEveryDimensionAllOrdersAlikeOften)
 {
     Kernel kernel = sobolKernel();
