@@ -13,8 +13,11 @@ namespace {
 
 using ValuesById = std::unordered_map<uint32_t, std::vector<uint32_t>>;
 
+/// Larger modules take seconds to inline: the time grows with the square of the size.
+constexpr size_t LARGEST_TO_INLINE = 50'000;  // words
+
 /// None of the passes folds arithmetic that is decorated NoContraction.
-void registerPasses(spvtools::Optimizer& optimizer, const ValuesById& values)
+void registerFolding(spvtools::Optimizer& optimizer, const ValuesById& values)
 {
     optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
         .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
@@ -25,13 +28,40 @@ void registerPasses(spvtools::Optimizer& optimizer, const ValuesById& values)
         .RegisterPass(spvtools::CreateAggressiveDCEPass());
 }
 
+/// What drivers do themselves before they ask whether they have the kernel already: done once and kept, it need not
+/// be done at every start.
+void registerInlining(spvtools::Optimizer& optimizer)
+{
+    optimizer.RegisterPass(spvtools::CreateInlineExhaustivePass())
+        .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
+        .RegisterPass(spvtools::CreateSSARewritePass())
+        .RegisterPass(spvtools::CreateAggressiveDCEPass());
+}
+
+std::vector<uint32_t> run(spvtools::Optimizer& optimizer, std::span<const uint32_t> spirv)
+{
+    std::string finding;
+    optimizer.SetMessageConsumer(
+        [&](spv_message_level_t level, const char*, const spv_position_t&, const char* text) {
+            if (level <= SPV_MSG_ERROR) finding = text;
+        });
+    spvtools::OptimizerOptions options;
+    options.set_run_validator(false);  // the build has validated it
+    std::vector<uint32_t> result;
+    if (!optimizer.Run(spirv.data(), spirv.size(), &result, options))
+        throw Error(ErrorKind::deviceLost,
+                    fmt::format("fold constants into a shader: {}", finding));
+    return result;
+}
+
 }  // namespace
 
 std::string foldingPasses()
 {
     spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_1);
-    registerPasses(optimizer, {});
-    std::string text = spvSoftwareVersionDetailsString();
+    registerFolding(optimizer, {});
+    registerInlining(optimizer);
+    std::string text = fmt::format("{} {}", spvSoftwareVersionDetailsString(), LARGEST_TO_INLINE);
     for (const char* pass : optimizer.GetPassNames()) text += fmt::format(" {}", pass);
     return text;
 }
@@ -41,21 +71,11 @@ std::vector<uint32_t> foldedConstants(std::span<const uint32_t> spirv,
 {
     ValuesById byId;
     for (uint32_t id = 0; id < values.size(); id++) byId[id] = {values[id]};
-
-    std::string finding;
-    spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_1);
-    optimizer.SetMessageConsumer(
-        [&](spv_message_level_t level, const char*, const spv_position_t&, const char* text) {
-            if (level <= SPV_MSG_ERROR) finding = text;
-        });
-    registerPasses(optimizer, byId);
-    spvtools::OptimizerOptions options;
-    options.set_run_validator(false);  // the build has validated it
-    std::vector<uint32_t> folded;
-    if (!optimizer.Run(spirv.data(), spirv.size(), &folded, options))
-        throw Error(ErrorKind::deviceLost,
-                    fmt::format("fold constants into a shader: {}", finding));
-    return folded;
+    spvtools::Optimizer folding(SPV_ENV_VULKAN_1_1), inlining(SPV_ENV_VULKAN_1_1);
+    registerFolding(folding, byId);
+    registerInlining(inlining);
+    std::vector<uint32_t> folded = run(folding, spirv);
+    return folded.size() > LARGEST_TO_INLINE ? folded : run(inlining, folded);
 }
 
 }  // namespace sahl
