@@ -59,6 +59,15 @@ void addVariant(CLI::App& command, DeviceOptions& device)
         ->group("Device");
 }
 
+/// What was chosen, and why.
+void sayDevice(const CommonOptions& options, const Device& device, const std::string& note)
+{
+    if (options.quiet) return;
+    const DeviceInfo info = device.info();
+    say("device: {} ({})\n", info.name, info.driver);
+    if (!note.empty()) say("{}\n", note);
+}
+
 }  // namespace
 
 void addSceneOptions(CLI::App& command, CommonOptions& options)
@@ -183,12 +192,25 @@ std::unique_ptr<Device> openDeviceFor(const CommonOptions& options)
 {
     std::string note;
     auto device = openDevice(options.device, options.deviceOptions, note);
-    if (!options.quiet) {
-        DeviceInfo info = device->info();
-        say("device: {} ({})\n", info.name, info.driver);
-        if (!note.empty()) say("{}\n", note);
-    }
+    sayDevice(options, *device, note);
     return device;
+}
+
+DeviceAhead::DeviceAhead(const CommonOptions& options, const SceneOutline& outline)
+    : options_(options), opened_(std::async(std::launch::async, [&options, outline] {
+          Opened opened;
+          opened.device = openDevice(options.device, options.deviceOptions, opened.note);
+          opened.device->expectScene(outline);
+          return opened;
+      }))
+{
+}
+
+std::unique_ptr<Device> DeviceAhead::get()
+{
+    Opened opened = opened_.get();
+    sayDevice(options_, *opened.device, opened.note);
+    return std::move(opened.device);
 }
 
 void requireFilmMemory(const RenderSettings& settings, unsigned films)

@@ -9,6 +9,8 @@
 #include <CLI/CLI.hpp>
 
 #include <functional>
+#include <future>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -46,6 +48,22 @@ PreparedScene prepareSceneFor(const CommonOptions& options,
 
 /// Opens options.device and tells the user what was chosen, unless --quiet.
 std::unique_ptr<Device> openDeviceFor(const CommonOptions& options);
+
+/// As openDeviceFor(), while the caller goes on: in a thread of its own the device is opened and makes the kernels
+/// for a scene like that. What the user is told, and what fails, waits for get().
+class DeviceAhead {
+public:
+    DeviceAhead(const CommonOptions& options, const SceneOutline& outline);
+    std::unique_ptr<Device> get();
+
+private:
+    struct Opened {
+        std::unique_ptr<Device> device;
+        std::string note;
+    };
+    const CommonOptions& options_;
+    std::future<Opened> opened_;
+};
 
 /// Throws deviceLost, with numbers, when there is no memory for `films` films of that size and for
 /// the pictures made from them.

@@ -18,6 +18,7 @@
 #include "app/stop_options.h"
 #include "film/fireflies.h"
 #include "film/layers.h"
+#include "render/outline.h"
 #include "render/prepare.h"
 #include "render/scene_hash.h"
 #include "sahl_version.h"
@@ -30,6 +31,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace sahl {
 
@@ -318,12 +320,16 @@ int runRender(RenderOptions& options)
     Stopwatch watch;
     StageSeconds seconds;
     RenderSettings filmSettings;
+    std::optional<DeviceAhead> opening;
     PreparedScene prepared = prepareSceneFor(options.common, [&](const Scene& scene) {
         refuseToReplaceInputs(outputs);
         options.samples = rangeOf(options.range, scene.settings);
         filmSettings = applyCrop(options, scene.settings);
         requireFilmMemory(filmSettings, options.output.film ? 2 : 1);
         seconds.load = watch.lap();
+        // A saved scene has its tree, and a part that is there already needs no device
+        const bool isSaved = scene.primitives.empty();
+        if (!isSaved && !options.range.skipExisting) opening.emplace(options.common, outlineOf(scene));
     });
     seconds.build = watch.lap();
     options.hashes = hashesOf(prepared.deviceScene());
@@ -332,7 +338,7 @@ int runRender(RenderOptions& options)
     if (options.range.isPart()) sayRange(options);
     if (options.range.skipExisting && areFinished(options.output.paths, expectedPart(options, prepared.scene, filmSettings)))
         return 0;
-    std::unique_ptr<Device> device = openDeviceFor(options.common);
+    std::unique_ptr<Device> device = opening ? opening->get() : openDeviceFor(options.common);
     device->setScene(prepared.deviceScene());
     seconds.upload = watch.lap();
 

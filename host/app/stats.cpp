@@ -123,6 +123,7 @@ Json statisticsJson(const PreparedScene& prepared, const Film& film, Device& dev
           {"variant", work.variant},
           {"exactMath", work.exactMath},
           {"sceneBytes", work.sceneBytes},
+          {"pipelines", work.pipelines},
           {"dispatches", work.dispatches},
           {"resumptions", work.resumptions},
           {"retries", work.retries},

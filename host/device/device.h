@@ -45,6 +45,13 @@ struct DeviceScene {
     WideScene wide;
 };
 
+/// What can be told of a scene before its tree is built (render/outline.h).
+struct SceneOutline {
+    uint32_t features = 0;  ///< as featuresOf() has them
+    size_t primitives = 0;
+    size_t triangleCorners = 0;
+};
+
 /// Part of a picture and of its samples. x, y, width and height in pixels of the full picture.
 struct TileRequest {
     uint32_t x = 0, y = 0, width = 0, height = 0;
@@ -70,6 +77,7 @@ struct DeviceStatistics {
     uint64_t sceneBytes = 0;    ///< on the device
     bool exactMath = false;     ///< division and root made exact rather than the device's own
     bool texelBuffers = false;  ///< scene read through texel buffers rather than storage buffers
+    uint32_t pipelines = 0;     ///< that were made of kernels
     std::string variant;        ///< way in which kernels run (variants.h); empty on the CPU
 };
 
@@ -124,6 +132,10 @@ public:
     virtual ~Device() = default;
 
     virtual DeviceInfo info() const = 0;
+
+    /// Makes ahead what setScene() will need for a scene that is about like that; where it turns out to be different,
+    /// setScene() makes that again. Throws as setScene() does.
+    virtual void expectScene(const SceneOutline&) {}
 
     /// Uploads a scene; replaces the one before. Throws badInput or noDevice with numbers when the
     /// device's limits do not allow it, deviceLost when it runs out of memory.

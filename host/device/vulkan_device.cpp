@@ -66,6 +66,7 @@ public:
     VulkanDevice(std::unique_ptr<Context> context, const DeviceOptions& options);
 
     DeviceInfo info() const override;
+    void expectScene(const SceneOutline& outline) override;
     void setScene(const DeviceScene& scene) override;
     void render(const TileRequest& tile, std::span<PixelBlock> blocks) override;
     void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override;
@@ -79,7 +80,7 @@ public:
 
 private:
     ComputePipeline makePipeline(const std::string& kernel, uint32_t bindingCount,
-                                 uint32_t pushConstantBytes = sizeof(Dispatch), bool waveResumes = false) const;
+                                 uint32_t pushConstantBytes = sizeof(Dispatch), bool waveResumes = false);
     void preparePipeline(bool texel, uint32_t features, const WalkForm& form);
     void prepareTileBuffers(size_t pixels);
     void prepareFirstHits(size_t pixels);
@@ -133,6 +134,17 @@ DeviceInfo VulkanDevice::info() const
     return {device.name, device.driver, device.kind};
 }
 
+void VulkanDevice::expectScene(const SceneOutline& outline)
+{
+    SceneBytes bytes = {};
+    bytes[BINDING_PRIMITIVES] = outline.primitives * sizeof(Primitive);
+    bytes[BINDING_CORNERS] = outline.triangleCorners * sizeof(TriangleCorners);
+    const bool texel = chooseTexelBuffers(context_->physical, bytes, {options_.buffers, variant_.texelBuffers});
+    WalkForm form = expectedWalkForm(outline.primitives, options_.nodeWidth, variant_.stackInRegisters);
+    form.stackEntries = chooseStackSize(form.stackEntries);
+    preparePipeline(texel, outline.features, form);
+}
+
 void VulkanDevice::setScene(const DeviceScene& scene)
 {
     scene_.reset();  // first, so that there never need be room for two scenes
@@ -140,6 +152,7 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     firstHitsBound_ = false;
     WalkForm form = walkFormFor(scene, options_.nodeWidth, variant_.stackInRegisters);
     form.stackEntries = chooseStackSize(form.stackEntries);
+    if (isRoomierArray(pipelineForm_, form)) form = pipelineForm_;
     auto start = std::chrono::steady_clock::now();
     auto uploaded = std::make_unique<VulkanScene>(
         uploadScene(*context_, scene, {options_.buffers, variant_.texelBuffers}, form.nodeWidth));
@@ -154,7 +167,7 @@ void VulkanDevice::setScene(const DeviceScene& scene)
 
 /// A pipeline of the kernel `kernel`_texel or `kernel`_storage, for the stack and buffers in force.
 ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t bindingCount,
-                                           uint32_t pushConstantBytes, bool waveResumes) const
+                                           uint32_t pushConstantBytes, bool waveResumes)
 {
     PipelineRequest request;
     request.name = kernel + (pipelineTexel_ ? "_texel" : "_storage");
@@ -178,6 +191,7 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     constants[SPEC_UNIFORMS_HIDDEN] = compilesForUniforms(context_->physical.driver) ? 1 : 0;
     request.spirv = foldedKernel(request.name, constants);
     ComputePipeline pipeline = createComputePipeline(*context_, request);
+    statistics_.pipelines++;
     returnFreedMemory();  // the driver's compiler leaves some 60 MB
     return pipeline;
 }

@@ -32,6 +32,25 @@ inline WalkForm walkFormFor(const DeviceScene& scene, uint32_t wantedWidth, bool
     return {4, entries, false};
 }
 
+/// The form in which a scene of so many primitives is likely to be walked, before its tree is known: so it is with nearly
+/// all models at hand, from a box to a million triangles.
+inline WalkForm expectedWalkForm(size_t primitives, uint32_t wantedWidth, bool wantRegisters)
+{
+    const bool isTiny = primitives <= MAX_LEAF_SIZE;
+    if (wantedWidth != 4 || isTiny) return {2, isTiny ? 0u : 32u, false};
+    const size_t size = primitives < 15'000 ? 0 : (primitives < 500'000 ? 1 : 2);
+    constexpr uint32_t GROUPS[] = {8, 12, 16}, ENTRIES[] = {32, 48, MAX_STACK_SIZE};
+    return {4, wantRegisters ? GROUPS[size] : ENTRIES[size], wantRegisters};
+}
+
+/// Whether a kernel made for the one form serves the other as well. An array costs nothing for being too large; registers
+/// do.
+inline bool isRoomierArray(const WalkForm& made, const WalkForm& needed)
+{
+    return made.nodeWidth == needed.nodeWidth && !made.stackInRegisters && !needed.stackInRegisters &&
+           made.stackEntries > needed.stackEntries;
+}
+
 /// The scene with the frame and the instances of the trees of that width.
 inline DeviceScene walkedScene(DeviceScene scene, uint32_t nodeWidth)
 {

@@ -2,6 +2,7 @@
 // does.
 
 #include "device/variants.h"
+#include "render/outline.h"
 #include "shared/bindings.h"
 #include "support/device_test.h"
 #include "support/render_scenes.h"
@@ -38,6 +39,25 @@ TEST_F(SameBits, onTheDeviceAndTheReference)
     EXPECT_GT(reference().counters.shadowRays, 0u);
     EXPECT_GT(reference().counters.indirectRays, reference().counters.cameraRays / 4);
     EXPECT_EQ(reference().counters.badSamples, 0u);
+}
+
+TEST_F(SameBits, onTheDeviceThatExpectedTheScene_withTheKernelsMadeAhead)
+{
+    auto device = openFirstDevice();
+    device->expectScene(outlineOf(builtInScene(smallPicture(WIDTH, HEIGHT, SPP))));
+    EXPECT_EQ(device->statistics().pipelines, 1u);
+    EXPECT_TRUE(renderFilm(*device, scene(), 0, SPP) == reference());
+    EXPECT_EQ(device->statistics().pipelines, 1u);
+}
+
+TEST_F(SameBits, onTheDeviceThatExpectedAnother_withOtherKernels)
+{
+    auto device = openFirstDevice();
+    Scene other = builtInScene(smallPicture(WIDTH, HEIGHT, SPP));
+    other.settings.integrator = INTEGRATOR_PHONG;
+    device->expectScene(outlineOf(other));
+    EXPECT_TRUE(renderFilm(*device, scene(), 0, SPP) == reference());
+    EXPECT_EQ(device->statistics().pipelines, 2u);
 }
 
 TEST_F(SameBits, forOneAndManyThreads)
