@@ -104,6 +104,38 @@ double expectNoRegionMuchWorse(const Ways& ways)
     return worst;
 }
 
+/// Variance of a sample in each part of the samples, in a quarter of the picture.
+std::vector<double> ofQuarter(const Measured& found, uint32_t right, uint32_t below)
+{
+    std::vector<double> sum(found.frame.size());
+    for (uint32_t y = 0; y < ROWS / 2; y++) {
+        for (uint32_t x = 0; x < COLUMNS / 2; x++) {
+            const size_t region = (y + below * ROWS / 2) * COLUMNS + x + right * COLUMNS / 2;
+            for (size_t part = 0; part < sum.size(); part++)
+                sum[part] += found.regions[region][part];
+        }
+    }
+    return sum;
+}
+
+/// In every quarter at most 1.1 times the variance of the better way, at the same samples, by two
+/// standard errors. Returns the largest such ratio.
+Estimate expectNoQuarterMuchWorse(const Ways& ways)
+{
+    Estimate worst;
+    for (uint32_t quarter = 0; quarter < 4; quarter++) {
+        const auto of = [&](const Measured& way) {
+            return ofQuarter(way, quarter % 2, quarter / 2);
+        };
+        const bool lights = estimateOf(of(ways.lights)).mean < estimateOf(of(ways.bsdf)).mean;
+        const Estimate ratio = ratioOf(of(ways.mis), of(lights ? ways.lights : ways.bsdf));
+        EXPECT_LT(ratio.mean + 2 * ratio.error, 1.1)
+            << "quarter " << quarter << ": " << ratio.mean << " +- " << ratio.error;
+        if (ratio.mean > worst.mean) worst = ratio;
+    }
+    return worst;
+}
+
 /// At equal rays: variance of both ways over that of one.
 Estimate ofFrame(const Ways& ways, const Measured& one)
 {
@@ -117,10 +149,9 @@ void record(const char* name, const Estimate& ratio)
     ::testing::Test::RecordProperty(name, fmt::format("{:.5g} +- {:.2g}", ratio.mean, ratio.error));
 }
 
-TEST(LongLightRegions, ofVeachsSceneAreNeverMuchNoisierThanByTheBetterWay)
+/// The whole picture at equal rays, by three standard errors.
+void expectFrameLessNoisyThanByEitherWay(const Ways& ways)
 {
-    const Ways ways = measure(veachScene(128, 72), 32, 64);
-    RecordProperty("worst region", std::to_string(expectNoRegionMuchWorse(ways)));
     const Estimate overLights = ofFrame(ways, ways.lights), overBsdf = ofFrame(ways, ways.bsdf);
     record("frame, of lights alone", overLights);
     record("frame, of bsdf alone", overBsdf);
@@ -128,7 +159,14 @@ TEST(LongLightRegions, ofVeachsSceneAreNeverMuchNoisierThanByTheBetterWay)
     EXPECT_LT(overBsdf.mean + 3 * overBsdf.error, 1);
 }
 
-/// Sponza lit by nothing but a lamp of 0.1 m behind the camera.
+TEST(LongLightRegions, ofVeachsSceneAreNeverMuchNoisierThanByTheBetterWay)
+{
+    const Ways ways = measure(veachScene(128, 72), 32, 64);
+    RecordProperty("worst region", std::to_string(expectNoRegionMuchWorse(ways)));
+    expectFrameLessNoisyThanByEitherWay(ways);
+}
+
+/// Sponza without light; the last material is that of what is to shine in it.
 Scene sponza()
 {
     Scene scene = loadScene(assetFolder() / "meshes/miro/sponza.obj", {});
@@ -141,8 +179,22 @@ Scene sponza()
     addMaterialOf(scene, MATERIAL_LAMBERT, vec3(0.7f));
     for (Primitive& primitive : scene.primitives) primitive.material = 0;
     addMaterialOf(scene, MATERIAL_LAMBERT, vec3(0)).emission = vec3(900, 800, 600);
-    addSphere(scene, {-10.2f, 4.5f, 1}, 0.1f);
     lookFrom(scene, {-9.5, 3, 0}, {0, 3.6, 0}, 65);
+    return scene;
+}
+
+/// A point of the nearest column on the right, at eye level on the side that is turned to the nave:
+/// its normal is -z.
+const vec3 COLUMN_SIDE = {-6.6f, 1.9f, 2.52f};
+
+/// A lantern hangs a hand's breadth off the column: a cube of 0.2 m.
+Scene sponzaWithLantern()
+{
+    constexpr float HALF = 0.1f, GAP = 0.1f;
+    Scene scene = sponza();
+    const size_t first = scene.primitives.size();
+    addBox(scene, COLUMN_SIDE - vec3(0, 0, GAP + HALF), HALF);
+    for (size_t i = first; i < scene.primitives.size(); i++) scene.primitives[i].material = 1;
     return scene;
 }
 
@@ -151,13 +203,55 @@ Scene sponza()
 TEST(LongLightRegions, ofSponzaUnderASmallLampAreThoseOfShadowRays)
 {
     SAHL_REQUIRE_ASSET("meshes/miro/sponza.obj");
-    const Ways ways = measure(sponza(), 16, 16);
+    Scene scene = sponza();
+    addSphere(scene, {-10.2f, 4.5f, 1}, 0.1f);  // in the open, behind the camera
+    const Ways ways = measure(scene, 16, 16);
     RecordProperty("worst region", std::to_string(expectNoRegionMuchWorse(ways)));
     const Estimate overLights = ofFrame(ways, ways.lights), overBsdf = ofFrame(ways, ways.bsdf);
     record("frame, of lights alone", overLights);
     record("frame, of bsdf alone", overBsdf);
     EXPECT_LT(overLights.mean, 1.001);
     EXPECT_LT(overBsdf.mean + 3 * overBsdf.error, 0.1);
+}
+
+/// Points close to the lantern receive much from the little of it that is closest, where a shadow
+/// ray seldom goes; from elsewhere the lantern is small. Quarters rather than regions: most of the
+/// picture is lit by paths that come by the lantern, which are too rare to tell smaller parts from
+/// each other.
+TEST(LongLightRegions, ofSponzaByALanternOnAColumnAreLessNoisyThanByEitherWay)
+{
+    SAHL_REQUIRE_ASSET("meshes/miro/sponza.obj");
+    const Ways ways = measure(sponzaWithLantern(), 32, 16);
+    record("worst quarter", expectNoQuarterMuchWorse(ways));
+    expectFrameLessNoisyThanByEitherWay(ways);
+}
+
+/// Without light by way of other surfaces all regions are known.
+TEST(LongLightRegions, ofSponzaRightFromALanternAreNeverMuchNoisierThanByTheBetterWay)
+{
+    SAHL_REQUIRE_ASSET("meshes/miro/sponza.obj");
+    Scene scene = sponzaWithLantern();
+    scene.settings.maxBounces = 1;
+    const Ways ways = measure(scene, 32, 8);
+    RecordProperty("worst region", std::to_string(expectNoRegionMuchWorse(ways)));
+    expectFrameLessNoisyThanByEitherWay(ways);
+}
+
+/// Balls are sampled by the solid angle that they fill, from which no point is too close.
+TEST(LongLightRegions, ofSponzaRightFromABallAreAlmostThoseOfShadowRays)
+{
+    SAHL_REQUIRE_ASSET("meshes/miro/sponza.obj");
+    Scene scene = sponza();
+    scene.settings.maxBounces = 1;
+    constexpr float RADIUS = 0.1f, GAP = 0.01f;
+    addSphere(scene, COLUMN_SIDE - vec3(0, 0, GAP + RADIUS), RADIUS);
+    const Ways ways = measure(scene, 32, 16);
+    RecordProperty("worst region", std::to_string(expectNoRegionMuchWorse(ways)));
+    const Estimate overLights = ofFrame(ways, ways.lights), overBsdf = ofFrame(ways, ways.bsdf);
+    record("frame, of lights alone", overLights);
+    record("frame, of bsdf alone", overBsdf);
+    EXPECT_LT(overLights.mean, 1.001);
+    EXPECT_LT(overBsdf.mean + 3 * overBsdf.error, 1);
 }
 
 }  // namespace
