@@ -11,7 +11,6 @@ namespace {
 
 // As in coat.glsl and microfacet.glsl.
 constexpr double MIN_ALPHA = 1e-4;
-constexpr double COAT_MARGIN = 0.0025;
 
 double fresnel(double cosI, double eta)
 {
@@ -27,7 +26,7 @@ double coatReflectance(double cosine, double eta, double alpha)
     if (alpha < MIN_ALPHA) return smooth;
     const double r = (eta - 1) / (eta + 1), f0 = r * r, x = 1 - cosine;
     const double rough = f0 + (1 - f0) * x * x * x / (1 + alpha * (13 + alpha * 5.5));
-    return std::min(1.0, std::min(smooth, rough) + COAT_MARGIN);
+    return std::min(1.0, std::min(smooth, rough) + std::min(0.0025, 0.0002 + 0.03 * alpha));
 }
 
 }  // namespace

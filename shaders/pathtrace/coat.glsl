@@ -9,8 +9,8 @@ float grazingShare(float alpha)
     return quotient(1.0f, 1.0f + alpha * (13.0f + alpha * 5.5f));
 }
 
-/// What the fit may be below the truth.
-CONST float COAT_MARGIN = 0.0025f;
+/// What the fit may be below the truth: least where the coat is nearly smooth.
+float coatMargin(float alpha) { return min2(0.0025f, alpha * 0.03f + 0.0002f); }
 
 /// Light that a coat reflects of what arrives under a cosine, at once or by its microfacets.
 ///   fresnel  reflectance of a smooth coat at this cosine
@@ -20,7 +20,7 @@ float coatReflectance(float cosine, float alpha, float fresnel, float f0)
     if (alpha < MIN_ALPHA) return fresnel;
     float x = 1.0f - min2(1.0f, cosine);
     float rough = f0 + (1.0f - f0) * (grazingShare(alpha) * (x * x * x));
-    return min2(1.0f, min2(fresnel, rough) + COAT_MARGIN);
+    return min2(1.0f, min2(fresnel, rough) + coatMargin(alpha));
 }
 
 /// Reflectance at normal incidence of an index of refraction.

@@ -50,7 +50,7 @@ float schlickCoatAverage(Material material)
     float x = root(s);
     float steep = (s2 * s) * (0.333333333f - x * 0.285714286f);
     float gentle = s * (0.1f - s2 * (0.5f - x * 0.4f));
-    return min2(1.0f, f0 + (1.0f - f0) * (steep + gentle) + COAT_MARGIN);
+    return min2(1.0f, f0 + (1.0f - f0) * (steep + gentle) + coatMargin(alpha));
 }
 
 /// coat: schlickCoat towards wo.

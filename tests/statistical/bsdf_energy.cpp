@@ -85,12 +85,12 @@ TEST(BsdfEnergy, ofTheCoatIsBoundedFromAboveByTwoPercentOnAverage)
     Kernel kernel;
     double most = 0, sum = 0;
     int count = 0;
-    for (double roughness : {0.02, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0}) {
+    for (double roughness : {0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.7, 1.0}) {
         const double alpha = roughness * roughness;
-        for (float eta : {1.2f, 1.5f, 2.0f}) {
+        for (float eta : {1.1f, 1.5f, 2.0f}) {
             Material m = roughMaterial(MATERIAL_PLASTIC, alpha);
             m.eta = eta;
-            for (double cosine : {0.02, 0.1, 0.3, 0.6, 1.0}) {
+            for (double cosine : {0.02, 0.1, 0.3, 0.5, 0.6, 0.9, 1.0}) {
                 auto fresnel = [&](double c) {
                     float cosT;
                     return double{kernel.fresnelDielectric(float(c), eta, cosT)};
@@ -98,7 +98,10 @@ TEST(BsdfEnergy, ofTheCoatIsBoundedFromAboveByTwoPercentOnAverage)
                 const double exact = textbook::microfacetAlbedo(cosine, alpha, fresnel);
                 const double bound =
                     double{kernel.plasticCoat(m, static_cast<float>(cosine))};
-                EXPECT_GT(bound, exact - 2e-4) << roughness << " " << eta << " " << cosine;
+                EXPECT_GT(bound, exact - 1e-5) << roughness << " " << eta << " " << cosine;
+                if (roughness <= 0.1 && cosine >= 0.3) {
+                    EXPECT_LT(bound, exact + 0.0015) << roughness << " " << eta << " " << cosine;
+                }
                 most = std::max(most, bound - exact);
                 sum += bound - exact;
                 count++;
@@ -108,7 +111,7 @@ TEST(BsdfEnergy, ofTheCoatIsBoundedFromAboveByTwoPercentOnAverage)
     std::printf("the coat's albedo is overestimated by %.4f on average, %.4f at most\n",
                 sum / count, most);
     EXPECT_LT(sum / count, 0.025);
-    EXPECT_LT(most, 0.125);
+    EXPECT_LT(most, 0.19);
 }
 
 /// Rough metal without absorption in white light: what is missing met more than one microfacet.
