@@ -136,12 +136,9 @@ class Mitsuba(unittest.TestCase):
         self.check("bsdf_spheres/test_roughdielectric_path.xml", "bsdf_spheres/refs/test_roughdielectric", 32768,
                    beckmann=NARROW, sampler="sobol", judged={"sure": FRAME / 2, "unlike": 14})
 
-    @unittest.expectedFailure
     def test_plastic_that_is_hardly_rough(self):
         """One of four spheres: in theirs the diffuse base loses what the microfacets of a rough coat lose, in ours
-        it gets that, so that the others differ by the more the rougher they are. Of this one the base is 0.6 %
-        darker in theirs, why is not known: the frame is off by 0.330 +- 0.088 %, and 5 of 9 blocks differ. Whoever finds
-        the reason is told by this test."""
+        it gets that, so that the others differ by the more the rougher they are."""
         self.check("bsdf_spheres/test_roughplastic_linear_path.xml", "bsdf_spheres/refs/test_roughplastic_linear",
                    65536, window=(0, 0, 24, 24), sampler="sobol")
 

@@ -94,6 +94,19 @@ class Mitsuba(Folder):
             self.assertAlmostEqual(sum(light["intensity"][0] * fade(light, angle) for light in lights), linear,
                                    delta=0.2 / len(lights))
 
+    def test_a_surface_that_is_hardly_rough_reflects_by_fresnels_law(self):
+        for eta in (1.5, 1 / 1.5):
+            for cosine in (0.3, 0.6, 0.8, 1):  # 1e-4 is far from the critical cosine, 0.745, in units of alpha
+                self.assertAlmostEqual(mitsuba_materials.rough_reflectance(cosine, eta, 1e-4),
+                                       mitsuba_materials.fresnel(cosine, eta), 3)
+
+    def test_a_rough_surface_loses_what_its_facets_hide(self):
+        # Nothing is refracted below the critical cosine; what is missing was masked or went down
+        whole = [mitsuba_materials.rough_reflectance(0.3, 1e-6, alpha) for alpha in (0.01, 0.3, 1)]
+        self.assertGreater(whole[0], 0.99)
+        self.assertGreater(whole[0], whole[1])
+        self.assertGreater(whole[1], whole[2])
+
     def test_plastic_gives_the_light_that_theirs_gives(self):
         eta = 1.49
         k = mitsuba_materials.diffuse_reflectance(1 / eta)
