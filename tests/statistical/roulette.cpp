@@ -87,7 +87,7 @@ TEST(Roulette, leavesTheFurnaceItsClosedForm)
                 const double raysExpected = raysInFurnace(double(albedo), depth, BOUNCES);
                 // 16,384 paths, whose rays have a standard deviation like their mean
                 EXPECT_NEAR(rays, raysExpected, 5 * raysExpected / 128) << albedo << ", " << depth;
-                EXPECT_LT(rays, raysBefore / 2.5);
+                EXPECT_LT(rays, raysBefore / 4);
             }
         }
     }
