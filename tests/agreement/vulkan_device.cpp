@@ -23,6 +23,13 @@ protected:
     VulkanHooks hooks_;
 };
 
+TEST_F(VulkanDeviceTest, torusIsMetByAGoodPartOfTheRays)
+{
+    uint64_t met = 0;
+    for (const PixelBlock& block : torus_.expected(tile_)) met += block.bounces > 0 ? 1 : 0;
+    EXPECT_GT(met, 32u * 24 / 4);
+}
+
 TEST_F(VulkanDeviceTest, validationIsOnAndSeesAMissingBarrier)
 {
     uint64_t before = validationMessageCount();

@@ -7,9 +7,13 @@
 #include "device/device.h"
 #include "support/soups.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
 #include <cstring>
+#include <string>
 
 namespace sahl::testing {
 
@@ -27,6 +31,7 @@ public:
         frame.camera.right = vec3(0.6f, 0, 0);
         frame.camera.down = vec3(0, -0.5f, -0.3f);
         frame.camera.forward = vec3(0, -0.447f, 0.894f);
+        frame.camera.focusDistance = 1;
         frame.probe = plainProbe(1, 1, PROBE_LATLONG, FILTER_NEAREST);
         frame.background = frame.probe;
         frame.width = WIDTH;
@@ -72,14 +77,25 @@ private:
     vec4 sky_ = vec4(1.0f);
 };
 
+inline std::string textOf(const PixelBlock& block)
+{
+    std::string text;
+    for (uint32_t word : std::bit_cast<std::array<uint32_t, sizeof(PixelBlock) / 4>>(block))
+        text += fmt::format("{:08x} ", word);
+    return text;
+}
+
 inline void expectSameBlocks(const std::vector<PixelBlock>& a, const std::vector<PixelBlock>& b)
 {
     ASSERT_EQ(a.size(), b.size());
-    size_t differing = 0;
+    size_t differing = 0, first = 0;
     for (size_t i = 0; i < a.size(); i++) {
-        differing += std::memcmp(&a[i], &b[i], sizeof(PixelBlock)) != 0;
+        if (std::memcmp(&a[i], &b[i], sizeof(PixelBlock)) == 0) continue;
+        if (differing++ == 0) first = i;
     }
-    EXPECT_EQ(differing, 0u) << "of " << a.size() << " pixels";
+    if (differing == 0) return;
+    ADD_FAILURE() << differing << " of " << a.size() << " pixels; number " << first << ":\n  "
+                  << textOf(a[first]) << "\n  " << textOf(b[first]);
 }
 
 }  // namespace sahl::testing
