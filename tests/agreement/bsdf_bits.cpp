@@ -3,6 +3,7 @@
 
 #include "agreement/agreement_spirv.h"
 #include "agreement/bsdf_query.h"
+#include "device/exact_math.h"
 #include "shared/bindings.h"
 #include "shared/features.h"
 #include "support/bsdf_cases.h"
@@ -104,6 +105,7 @@ TEST_F(BsdfBits, areThoseOfCpp)
     parameters.specialisation.resize(SPEC_COUNT);
     parameters.specialisation[SPEC_STACK_SIZE] = MAX_STACK_SIZE;
     parameters.specialisation[SPEC_FEATURES] = FEATURES_ALL;
+    parameters.specialisation[SPEC_EXACT_MATH] = chooseExactMath(*context, DeviceOptions::Math::automatic) ? 1 : 0;
     runCompute(
         *context, testSpirv("bsdf_probe"),
         {std::as_writable_bytes(std::span(queries)), std::as_writable_bytes(std::span(answers))},

@@ -65,7 +65,7 @@ protected:
 /// some drivers much longer than rendering.
 class VerifySmallScenes : public VerifyFeatures, public ::testing::WithParamInterface<const char*> {
 protected:
-    static void SetUpTestSuite() { device = openWith(DeviceOptions::Math::native); }
+    static void SetUpTestSuite() { device = openWith(DeviceOptions::Math::automatic); }
     static void TearDownTestSuite() { device.reset(); }
 
     inline static std::unique_ptr<Device> device;
@@ -117,7 +117,7 @@ Scene showcase()
 
 TEST_F(VerifyFeatures, showcaseHasNoDifferingBit)
 {
-    expectEqual(*openWith(DeviceOptions::Math::native), showcase());
+    expectEqual(*openWith(DeviceOptions::Math::automatic), showcase());
 }
 
 class LongVerifyFeatures : public VerifyFeatures {};

@@ -17,6 +17,9 @@ PFN_vkGetInstanceProcAddr loaderProcAddr = nullptr;
 // Allocations of the memory that a graphics card's host would not see.
 std::set<VkDeviceMemory> hiddenMemory;
 
+// Of a driver with one heap. Those of real graphics cards have two, and are left as they are.
+bool pretendsDiscrete = false;
+
 template <size_t N>
 struct Name {
     char text[N];
@@ -101,7 +104,8 @@ VKAPI_ATTR void VKAPI_CALL changedMemory(VkPhysicalDevice device,
                                          VkPhysicalDeviceMemoryProperties* out)
 {
     getMemoryProperties(device, out);
-    if (active && active->discreteMemory) {
+    pretendsDiscrete = active && active->discreteMemory && out->memoryHeapCount == 1;
+    if (pretendsDiscrete) {
         uint64_t bytes = out->memoryHeaps[0].size;
         *out = {};
         out->memoryHeapCount = 2;
@@ -121,7 +125,7 @@ VKAPI_ATTR void VKAPI_CALL changedRequirements(VkDevice device, VkBuffer buffer,
                                                VkMemoryRequirements* out)
 {
     getRequirements(device, buffer, out);
-    if (active && active->discreteMemory) out->memoryTypeBits = 7;
+    if (pretendsDiscrete) out->memoryTypeBits = 7;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL changedAllocate(VkDevice device, const VkMemoryAllocateInfo* info,
@@ -131,9 +135,9 @@ VKAPI_ATTR VkResult VKAPI_CALL changedAllocate(VkDevice device, const VkMemoryAl
     if (active && active->onCall)
         if (std::optional<VkResult> result = active->onCall("vkAllocateMemory")) return *result;
     VkMemoryAllocateInfo real = *info;
-    if (active && active->discreteMemory) real.memoryTypeIndex = 0;  // all that the driver has
+    if (pretendsDiscrete) real.memoryTypeIndex = 0;  // all that the driver has
     VkResult result = allocateMemory(device, &real, callbacks, memory);
-    if (active && active->discreteMemory && info->memoryTypeIndex == 0)
+    if (pretendsDiscrete && info->memoryTypeIndex == 0)
         hiddenMemory.insert(*memory);
     return result;
 }
@@ -232,6 +236,7 @@ VulkanHooks::~VulkanHooks()
 {
     if (active != this) return;
     active = nullptr;
+    pretendsDiscrete = false;
     vkGetInstanceProcAddr = loaderProcAddr;
 }
 
