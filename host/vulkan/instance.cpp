@@ -156,6 +156,17 @@ std::shared_ptr<Instance> makeInstance(bool validation)
     return instance;
 }
 
+/// Destroys the instance when another has been closed. The loader unloads drivers with the last instance, and
+/// NVIDIA's cannot be loaded again and again in a process.
+void destroyLater(VkInstance handle)
+{
+    static std::mutex mutex;
+    static VkInstance last = VK_NULL_HANDLE;
+    std::lock_guard lock(mutex);
+    std::swap(handle, last);
+    if (handle != VK_NULL_HANDLE) vkDestroyInstance(handle, nullptr);
+}
+
 }  // namespace
 
 Instance::~Instance()
@@ -166,7 +177,7 @@ Instance::~Instance()
             handle, "vkDestroyDebugUtilsMessengerEXT");
         destroy(handle, messenger, nullptr);
     }
-    vkDestroyInstance(handle, nullptr);
+    destroyLater(handle);
 }
 
 std::shared_ptr<Instance> openInstance(bool validation)

@@ -7,7 +7,7 @@
 
 namespace sahl {
 
-/// A Vulkan 1.1 instance; destroyed with the last owner.
+/// A Vulkan 1.1 instance; closed with the last owner.
 struct Instance {
     VkInstance handle = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;  ///< null without validation
