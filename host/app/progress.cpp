@@ -44,8 +44,8 @@ std::string describe(const RenderProgress& p, uint32_t samplesPerPixel)
                                                  double(p.rays) / std::max(p.seconds, 1e-9) * 1e-6)
                                    : "";
     double left = p.fraction > 0 ? p.seconds / p.fraction - p.seconds : 0;
-    std::string error =
-        p.relativeError > 0 ? fmt::format("  error {:.2g} %", 100 * p.relativeError) : "";
+    const double relativeError = p.relativeError ? p.relativeError() : 0;
+    std::string error = relativeError > 0 ? fmt::format("  error {:.2g} %", 100 * relativeError) : "";
     return fmt::format("{:3.0f} %  {}/{} spp{}{}  {} left", 100 * p.fraction, p.samplesDone,
                        samplesPerPixel, speed, error, duration(left));
 }

@@ -264,9 +264,9 @@ RenderResult renderLight(const RenderOptions& options, const Scene& scene, const
                                     if (options.partialSeconds && partial.isDue()) partial.passDone(soFar());
                                 });
     } else {
-        result = renderPicture(device, plan, report, [&](const RenderResult& soFar) {
-            if (options.partialSeconds) partial.passDone(soFar);
-        });
+        const auto keepPartial = [&](const RenderResult& soFar) { partial.passDone(soFar); };
+        result = renderPicture(device, plan, report,
+                               options.partialSeconds ? std::function<void(const RenderResult&)>(keepPartial) : nullptr);
     }
     printer.finish();
     return result;
@@ -345,6 +345,7 @@ int runRender(RenderOptions& options)
     const RenderSettings& settings = prepared.scene.settings;
     RenderPlan plan = {filmSettings.width, filmSettings.height, options.samples.first,
                        options.samples.end - options.samples.first, options.common.tileSize};
+    plan.threads = threadsFor(options.common);
     if (options.crop) {
         plan.left = options.crop->x;
         plan.top = options.crop->y;

@@ -2,6 +2,7 @@
 #include "film/film.h"
 
 #include "util/error.h"
+#include "util/parallel.h"
 
 #include <cassert>
 #include <limits>
@@ -114,23 +115,25 @@ Film::Film(uint32_t filmWidth, uint32_t filmHeight) : width(filmWidth), height(f
 }
 
 void Film::add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,
-               uint32_t firstSample, std::span<const PixelBlock> blocks)
+               uint32_t firstSample, std::span<const PixelBlock> blocks, unsigned threads)
 {
     assert(x <= width && tileWidth <= width - x && y <= height && tileHeight <= height - y);
     assert(blocks.size() == size_t{tileWidth} * tileHeight);
     assert(firstSample % BLOCK_SIZE == 0);
     std::vector<HalfPixel>& target = half[firstSample / BLOCK_SIZE % 2];
-    for (uint32_t row = 0; row < tileHeight; row++) {
+    std::vector<Counters> counted(tileHeight);
+    parallelFor(tileHeight, threads, [&](size_t row) {
         for (uint32_t column = 0; column < tileWidth; column++) {
-            const PixelBlock& block = blocks[size_t{row} * tileWidth + column];
+            const PixelBlock& block = blocks[row * tileWidth + column];
             assert(block.status == BLOCK_IDLE && block.samplesDone <= BLOCK_SIZE);
-            const size_t pixel = size_t{y + row} * width + x + column;
+            const size_t pixel = (y + row) * width + x + column;
             addBlock(target[pixel], block);
             digest[pixel] += block.digest;
             work[pixel].add({block.boxTests, block.primitiveTests});
-            counters.add(countersOf(block));
+            counted[row].add(countersOf(block));
         }
-    }
+    });
+    for (const Counters& ofRow : counted) counters.add(ofRow);
 }
 
 void Film::add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,

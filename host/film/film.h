@@ -71,7 +71,7 @@ struct Film {
 
     /// Adds the blocks of a tile whose samples start at `firstSample`, a multiple of BLOCK_SIZE.
     void add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight, uint32_t firstSample,
-             std::span<const PixelBlock> blocks);
+             std::span<const PixelBlock> blocks, unsigned threads = 1);
 
     /// Adds pixels of a tile under adaptive sampling, with or without what their newest pass added.
     void add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,

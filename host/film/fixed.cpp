@@ -3,7 +3,6 @@
 
 #include <bit>
 #include <cassert>
-#include <cmath>
 #include <limits>
 
 namespace sahl {
@@ -43,11 +42,12 @@ double Fixed64x64::toDouble() const
 {
     // The upper 64 significant bits, the last one standing for all that follow: the conversion to
     // double then rounds once, to nearest.
-    if (whole == 0) return std::ldexp(static_cast<double>(fraction), -64);
+    if (whole == 0) return static_cast<double>(fraction) * 0x1p-64;
     const int shift = std::countl_zero(whole);
     const uint64_t top = shift == 0 ? whole : whole << shift | fraction >> (64 - shift);
     const uint64_t rest = fraction << shift;
-    return std::ldexp(static_cast<double>(top | (rest != 0 ? 1u : 0u)), -shift);
+    const auto scale = std::bit_cast<double>(uint64_t(1023 - shift) << 52);  // 2^-shift
+    return static_cast<double>(top | (rest != 0 ? 1u : 0u)) * scale;
 }
 
 }  // namespace sahl

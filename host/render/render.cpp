@@ -2,18 +2,17 @@
 
 #include "film/film_error.h"
 #include "util/interrupt.h"
+#include "util/parallel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <future>
+#include <optional>
 
 namespace sahl {
 
 namespace {
-
-uint64_t raysOf(const Counters& counters)
-{
-    return counters.cameraRays + counters.indirectRays + counters.shadowRays;
-}
 
 /// A rendered tile that waits for its pass to be complete.
 struct FinishedTile {
@@ -21,12 +20,57 @@ struct FinishedTile {
     std::vector<PixelBlock> blocks;
 };
 
-void addToFilm(const std::vector<FinishedTile>& tiles, Film& film)
-{
-    for (const FinishedTile& done : tiles) {
-        film.add(done.tile.x, done.tile.y, done.tile.width, done.tile.height, done.tile.firstSample,
-                 done.blocks);
+using Pass = std::vector<FinishedTile>;
+
+/// Adds passes to a film; behind the back of who renders the next one, where that is done elsewhere than on the
+/// host's cores.
+class FilmAdder {
+public:
+    FilmAdder(Film& film, unsigned threads, bool meanwhile) : film_(film), threads_(threads), meanwhile_(meanwhile) {}
+
+    /// Exchanges `pass`, of which the film gets all tiles, for one to be used anew.
+    void add(Pass& pass)
+    {
+        wait();
+        std::swap(pass, passes_);
+        auto addAll = [this] {
+            for (const FinishedTile& done : passes_) {
+                const TileRequest& tile = done.tile;
+                film_.add(tile.x, tile.y, tile.width, tile.height, tile.firstSample, done.blocks, threads_);
+            }
+        };
+        if (meanwhile_)
+            adding_ = std::async(std::launch::async, addAll);
+        else
+            addAll();
     }
+
+    /// Until the film has all that was added.
+    void wait()
+    {
+        if (adding_.valid()) adding_.get();
+    }
+
+private:
+    Film& film_;
+    unsigned threads_;
+    bool meanwhile_;
+    Pass passes_;
+    std::future<void> adding_;
+};
+
+uint64_t raysIn(std::span<const PixelBlock> blocks, unsigned threads)
+{
+    constexpr size_t CHUNK = 1 << 14;
+    std::atomic<uint64_t> rays = 0;
+    parallelFor((blocks.size() + CHUNK - 1) / CHUNK, threads, [&](size_t chunk) {
+        uint64_t inChunk = 0;
+        const size_t first = chunk * CHUNK;
+        for (const PixelBlock& block : blocks.subspan(first, std::min(CHUNK, blocks.size() - first)))
+            inChunk += uint64_t{block.samplesDone} + block.indirectRays + block.shadowRays;
+        rays += inChunk;
+    });
+    return rays;
 }
 
 }  // namespace
@@ -75,45 +119,55 @@ RenderResult renderPicture(Device& device, const RenderPlan& plan,
 
     RenderResult result = {Film(plan.width, plan.height), 0, false, 0};
     result.film.varianceOverBlocks = device.samplerKind() == SAMPLER_SOBOL;
+    const std::string kind = device.info().kind;
+    FilmAdder adder(result.film, plan.threads, kind != "cpu" && kind != "software");
     RenderProgress progress;
     double allSamples = double(plan.width) * plan.height * plan.sampleCount;
     double samplesDone = 0;
     std::vector<TileRequest> tiles = tilesOf(plan.width, plan.height, plan.tileSize, device.maxTilePixels());
+    Pass pass;
     for (uint32_t done = 0; done < plan.sampleCount && !result.interrupted;) {
         uint32_t count = std::min(BLOCK_SIZE, plan.sampleCount - done);
-        std::vector<FinishedTile> pass;
-        for (TileRequest tile : tiles) {
+        pass.resize(tiles.size());
+        for (size_t i = 0; i < tiles.size(); i++) {
             if (interruptSignal() != 0) {
                 result.interrupted = true;
+                pass.resize(i);
                 break;
             }
-            tile.firstSample = plan.firstSample + done;
-            tile.sampleCount = count;
-            pass.push_back({tile, std::vector<PixelBlock>(size_t{tile.width} * tile.height)});
-            device.render(inFullPicture(tile, plan), pass.back().blocks);
+            pass[i].tile = tiles[i];
+            pass[i].tile.firstSample = plan.firstSample + done;
+            pass[i].tile.sampleCount = count;
+            pass[i].blocks.resize(size_t{tiles[i].width} * tiles[i].height);
+            device.render(inFullPicture(pass[i].tile, plan), pass[i].blocks);
 
-            for (const PixelBlock& block : pass.back().blocks) {
-                progress.rays += uint64_t{block.samplesDone} + block.indirectRays + block.shadowRays;
-            }
-            samplesDone += double(tile.width) * tile.height * count;
+            progress.rays += raysIn(pass[i].blocks, plan.threads);
+            samplesDone += double(pass[i].blocks.size()) * count;
             progress.fraction = samplesDone / allSamples;
             progress.seconds = secondsSoFar();
             report(progress);
         }
         if (result.interrupted && result.passes > 0) break;
-        addToFilm(pass, result.film);
+        adder.add(pass);
         if (result.interrupted) break;
         done += count;
         result.passes++;
         progress.samplesDone = done;
-        progress.rays = raysOf(result.film.counters);
-        progress.relativeError = relativeError(result.film);
+        progress.relativeError = [&adder, &result, error = std::optional<double>()]() mutable {
+            adder.wait();
+            if (!error) error = relativeError(result.film);
+            return *error;
+        };
         result.seconds = secondsSoFar();
         if (done >= plan.sampleCount) break;
         result.stoppedBy = stopsAfter(plan, result.passes, result.seconds);
         if (result.stoppedBy != StoppedBy::nothing) break;
-        if (passDone) passDone(result);
+        if (passDone) {
+            adder.wait();
+            passDone(result);
+        }
     }
+    adder.wait();
     result.seconds = secondsSoFar();
     return result;
 }

@@ -17,6 +17,7 @@ struct RenderPlan {
     uint32_t left = 0, top = 0;      ///< of the window, in the scene's full picture [pixels]
     uint32_t maxPasses = 0;          ///< after which to stop; 0: when all samples are there
     double timeLimit = 0;            ///< after which no pass begins [s]; 0: none. One pass always runs
+    unsigned threads = 1;            ///< of the host, which adds up what the device gives
 };
 
 /// Why a render ended before all samples were there, a signal aside.
@@ -27,7 +28,7 @@ struct RenderProgress {
     uint32_t samplesDone = 0;    ///< per pixel, in whole passes
     uint64_t rays = 0;           ///< of all kinds, so far
     double seconds = 0;          ///< since the start of the loop
-    double relativeError = 0;    ///< see relativeError() in film/film_error.h; 0 while unknown
+    std::function<double()> relativeError;  ///< see there in film/film_error.h; empty while unknown. Takes a while
 };
 
 /// How far the rule of adaptive sampling came.

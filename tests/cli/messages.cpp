@@ -89,7 +89,7 @@ std::string printed(const std::string& mode, bool quiet, const std::vector<doubl
         progress.samplesDone = 16;
         progress.rays = uint64_t(second * 2e6);
         progress.seconds = second;
-        progress.relativeError = 0.034;
+        progress.relativeError = [] { return 0.034; };
         printer.update(progress);
     }
     printer.finish();

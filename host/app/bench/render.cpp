@@ -42,6 +42,7 @@ double renderOn(Device& device, const BenchOptions& options, uint32_t spp, Pictu
     plan.width = plan.height = options.size;
     plan.sampleCount = spp;
     plan.tileSize = options.common.tileSize;
+    plan.threads = threadsFor(options.common);
     const RenderResult result = renderPicture(device, plan, [](const RenderProgress&) {});
     picture = pictureOf(result.film);
     return result.seconds;
