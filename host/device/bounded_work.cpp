@@ -2,6 +2,7 @@
 
 #include "device/vulkan_limits.h"
 #include "util/error.h"
+#include "util/parallel.h"
 
 #include <algorithm>
 #include <chrono>
@@ -15,7 +16,35 @@ constexpr uint32_t MAX_CUT_ROUNDS = 64;      // at the smallest budget, without 
 constexpr double SUBMISSION_SECONDS = 0.25;  // watchdogs of real GPUs bite after 2 s
 constexpr double SOFTWARE_SUBMISSION_SECONDS = 4;  // nothing waits for these
 
+RoundState inspectPart(std::span<const PixelBlock> blocks, uint32_t sampleCount)
+{
+    RoundState state;
+    for (const PixelBlock& block : blocks) {
+        uint32_t done = std::min(block.samplesDone, sampleCount);
+        state.samplesMissing = std::max(state.samplesMissing, sampleCount - done);
+        state.samplesDone += done;
+        state.faults |= block.faults;
+    }
+    return state;
+}
+
 }  // namespace
+
+RoundState stateOf(std::span<const PixelBlock> blocks, uint32_t sampleCount, unsigned threads)
+{
+    constexpr size_t PART = 1 << 16;  // blocks
+    std::vector<RoundState> parts((blocks.size() + PART - 1) / PART);
+    parallelFor(parts.size(), threads, [&](size_t i) {
+        parts[i] = inspectPart(blocks.subspan(i * PART, std::min(PART, blocks.size() - i * PART)), sampleCount);
+    });
+    RoundState state;
+    for (const RoundState& part : parts) {
+        state.samplesMissing = std::max(state.samplesMissing, part.samplesMissing);
+        state.samplesDone += part.samplesDone;
+        state.faults |= part.faults;
+    }
+    return state;
+}
 
 BoundedWork::BoundedWork(const PhysicalDevice& device, uint32_t stepBudget,
                          DeviceStatistics& statistics)
@@ -93,9 +122,19 @@ void BoundedWork::runInParts(uint64_t pixels, uint32_t samples,
         auto start = std::chrono::steady_clock::now();
         submit(count, done == 0, done + count == samples);
         std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-        secondsPerPixel_ = seconds.count() / (double(pixels) * count);
+        noteSubmission(pixels, count, seconds.count());
         done += count;
     }
+}
+
+bool BoundedWork::fitOneSubmission(uint64_t pixels, uint32_t samples) const
+{
+    return secondsPerPixel_ > 0 && secondsPerPixel_ * double(pixels) * samples <= submissionSeconds_;
+}
+
+void BoundedWork::noteSubmission(uint64_t pixels, uint32_t samples, double seconds)
+{
+    secondsPerPixel_ = seconds / (double(pixels) * samples);
 }
 
 }  // namespace sahl

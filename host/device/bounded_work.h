@@ -17,6 +17,9 @@ struct RoundState {
     uint32_t faults = 0;          ///< FAULT_* of any pixel
 };
 
+/// What the blocks of a tile say after a round of dispatches.
+RoundState stateOf(std::span<const PixelBlock> blocks, uint32_t sampleCount, unsigned threads);
+
 /// Work of which every pixel gets its samples.
 struct BoundedTask {
     std::string name;             ///< for messages
@@ -45,6 +48,12 @@ public:
     /// than a watchdog would stand.
     void runInParts(uint64_t pixels, uint32_t samples,
                     const std::function<void(uint32_t count, bool isFirst, bool isLast)>& submit);
+
+    /// Whether that many samples of so many pixels are known to fit one submission.
+    bool fitOneSubmission(uint64_t pixels, uint32_t samples) const;
+
+    /// For who submits by itself: how long that took [s].
+    void noteSubmission(uint64_t pixels, uint32_t samples, double seconds);
 
 private:
     void handleFaults(const BoundedTask& task, uint32_t faults);

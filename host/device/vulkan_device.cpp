@@ -6,6 +6,7 @@
 #include "device/scene_features.h"
 #include "device/variants.h"
 #include "device/vulkan_adaptive.h"
+#include "device/vulkan_ahead.h"
 #include "device/vulkan_limits.h"
 #include "device/vulkan_scene.h"
 #include "device/vulkan_trace.h"
@@ -13,6 +14,7 @@
 #include "device/walked_tree.h"
 #include "shared/bindings.h"
 #include "util/memory.h"
+#include "util/parallel.h"
 #include "vulkan/pipeline.h"
 
 #include <algorithm>
@@ -25,19 +27,6 @@ namespace {
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// What the blocks of a tile say after a round of dispatches.
-RoundState inspect(std::span<const PixelBlock> blocks, uint32_t sampleCount)
-{
-    RoundState state;
-    for (const PixelBlock& block : blocks) {
-        uint32_t done = std::min(block.samplesDone, sampleCount);
-        state.samplesMissing = std::max(state.samplesMissing, sampleCount - done);
-        state.samplesDone += done;
-        state.faults |= block.faults;
-    }
-    return state;
 }
 
 std::string tileName(const TileRequest& tile)
@@ -68,6 +57,7 @@ public:
     DeviceInfo info() const override;
     void expectScene(const SceneOutline& outline) override;
     void setScene(const DeviceScene& scene) override;
+    void expectTile(const TileRequest& tile) override { expected_ = tile; }
     void render(const TileRequest& tile, std::span<PixelBlock> blocks) override;
     void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override;
     double traceRays(std::span<const TraceRay> rays, bool anyHit, std::span<TraceHit> hits) override;
@@ -88,16 +78,20 @@ private:
     void requireStorageBuffers(uint32_t ofKernel, const char* purpose) const;
     void makePathPipelines();
     void bindAll(ComputePipeline& pipeline);
+    void renderWhole(const TileRequest& tile, std::span<PixelBlock> blocks);
     void renderBlocks(const TileRequest& tile, std::span<PixelBlock> blocks);
+    bool mayBeginAhead(const TileRequest& tile) const;
     void requireTile(const TileRequest& tile, size_t blockCount) const;
     RoundState runRound(const TileRequest& tile, uint32_t samples, bool begin,
                         std::span<PixelBlock> blocks);
     void submit(const TileRequest& tile, uint32_t samples, bool begin, bool end);
+    void recordSamples(VkCommandBuffer commands, const TileRequest& tile, uint32_t samples, bool begin);
 
     std::unique_ptr<Context> context_;  // stands first: everything below is made from it
     DeviceOptions options_;
     Variant variant_;
     std::array<uint32_t, 2> group_;
+    unsigned threads_;  // of the host
     DeviceStatistics statistics_;
     BoundedWork work_;
     ComputePipeline pipeline_;
@@ -115,6 +109,8 @@ private:
     bool firstHitsBound_ = false;  // likewise
     std::unique_ptr<AdaptivePipelines> adaptive_;  // made when first asked for
     std::unique_ptr<VulkanWaves> waves_;           // where paths go in waves: in place of pipeline_
+    std::optional<TileRequest> expected_;          // after the one that is rendered next
+    TilesAhead ahead_;                             // stands last: uses the above until it is gone
 };
 
 VulkanDevice::VulkanDevice(std::unique_ptr<Context> context, const DeviceOptions& options)
@@ -122,7 +118,9 @@ VulkanDevice::VulkanDevice(std::unique_ptr<Context> context, const DeviceOptions
       options_(options),
       variant_(chooseVariant(context_->physical, options)),
       group_(chooseGroupShape(context_->physical, variant_.groupWidth, variant_.groupHeight)),
-      work_(context_->physical, options.stepBudget, statistics_)
+      threads_(options.threads > 0 ? options.threads : defaultThreadCount()),
+      work_(context_->physical, options.stepBudget, statistics_),
+      ahead_(*context_)
 {
     statistics_.variant = nameOf(variant_);
     statistics_.exactMath = chooseExactMath(*context_, options.math);
@@ -136,6 +134,7 @@ DeviceInfo VulkanDevice::info() const
 
 void VulkanDevice::expectScene(const SceneOutline& outline)
 {
+    ahead_.drain();
     SceneBytes bytes = {};
     bytes[BINDING_PRIMITIVES] = outline.primitives * sizeof(Primitive);
     bytes[BINDING_CORNERS] = outline.triangleCorners * sizeof(TriangleCorners);
@@ -147,6 +146,7 @@ void VulkanDevice::expectScene(const SceneOutline& outline)
 
 void VulkanDevice::setScene(const DeviceScene& scene)
 {
+    ahead_.drain();
     scene_.reset();  // first, so that there never need be room for two scenes
     bound_ = false;
     firstHitsBound_ = false;
@@ -243,6 +243,7 @@ void VulkanDevice::prepareTileBuffers(size_t pixels)
     uint64_t pixelBytes = pixels * sizeof(PixelBlock);
     uint64_t suspendedBytes = pixels * sizeof(SuspendedPath);
     if (pixels_.bytes >= pixelBytes && suspended_.bytes >= suspendedBytes) return;
+    ahead_.drain();
     bound_ = false;
     firstHitsBound_ = false;
     pixels_ = {};
@@ -316,13 +317,39 @@ void VulkanDevice::render(const TileRequest& tile, std::span<PixelBlock> blocks)
     if (waves_) {
         waves_->render(tileName(tile), tile, blocks);
     } else {
-        prepareTileBuffers(blocks.size());
-        if (!bound_) bindAll(pipeline_);
-        bound_ = true;
-        active_ = &pipeline_;
-        renderBlocks(tile, blocks);
+        renderWhole(tile, blocks);
     }
+    expected_.reset();
     statistics_.renderSeconds += secondsSince(start);
+}
+
+/// Tiles are begun ahead where the device computes elsewhere than the host, and one submission is enough.
+bool VulkanDevice::mayBeginAhead(const TileRequest& tile) const
+{
+    const uint64_t pixels = uint64_t{tile.width} * tile.height;
+    const bool gains = context_->physical.kind != "software" || options_.beginsAhead;
+    return gains && pixels * sizeof(PixelBlock) <= pixels_.bytes && work_.fitOneSubmission(pixels, tile.sampleCount);
+}
+
+void VulkanDevice::renderWhole(const TileRequest& tile, std::span<PixelBlock> blocks)
+{
+    prepareTileBuffers(blocks.size());
+    if (!bound_) {
+        ahead_.drain();
+        bindAll(pipeline_);
+    }
+    bound_ = true;
+    active_ = &pipeline_;
+    if (!mayBeginAhead(tile)) return renderBlocks(tile, blocks);
+    if (expected_ && !mayBeginAhead(*expected_)) expected_.reset();
+    const auto record = [this](VkCommandBuffer commands, const TileRequest& begun) {
+        recordSamples(commands, begun, begun.sampleCount, true);
+    };
+    const double seconds = ahead_.render(tile, expected_, pixels_, record, blocks);
+    if (expected_) statistics_.tilesBegunAhead++;
+    work_.noteSubmission(blocks.size(), tile.sampleCount, seconds);
+    // What the tile was to go on with, the next one has overwritten
+    if (stateOf(blocks, tile.sampleCount, threads_).samplesMissing > 0) renderBlocks(tile, blocks);
 }
 
 void VulkanDevice::renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels)
@@ -343,6 +370,7 @@ void VulkanDevice::renderFirstHits(const TileRequest& tile, std::span<FirstHits>
 
 double VulkanDevice::traceRays(std::span<const TraceRay> rays, bool anyHit, std::span<TraceHit> hits)
 {
+    ahead_.drain();
     if (!scene_ || hits.size() != rays.size())
         throw usageError("trace rays on '{}': {} rays, room for {} hits (scene set: {})",
                          context_->physical.name, rays.size(), hits.size(), scene_ != nullptr);
@@ -357,6 +385,7 @@ double VulkanDevice::traceRays(std::span<const TraceRay> rays, bool anyHit, std:
 std::unique_ptr<AdaptivePicture> VulkanDevice::beginAdaptive(const AdaptiveWindow& window,
                                                              const AdaptiveRule& rule)
 {
+    ahead_.drain();
     if (!scene_) throw usageError("adaptive sampling on '{}' without a scene", context_->physical.name);
     if (!adaptive_) {
         ComputePipeline path = makePipeline("adaptive_path", BINDING_COUNT, sizeof(AdaptiveDispatch));
@@ -364,6 +393,7 @@ std::unique_ptr<AdaptivePicture> VulkanDevice::beginAdaptive(const AdaptiveWindo
             makeAdaptivePipelines(*context_, std::move(path), group_, statistics_.exactMath));
     }
     auto prepareTile = [this](TileRequest tile) {
+        ahead_.drain();
         tile.firstSample = 0;
         tile.sampleCount = 1;
         size_t pixels = size_t{tile.width} * tile.height;
@@ -377,6 +407,7 @@ std::unique_ptr<AdaptivePicture> VulkanDevice::beginAdaptive(const AdaptiveWindo
 
 void VulkanDevice::renderBlocks(const TileRequest& tile, std::span<PixelBlock> blocks)
 {
+    ahead_.drain();
     RoundState state = runRound(tile, tile.sampleCount, true, blocks);
     work_.finish({tileName(tile), scene_->stepsPerSample, pipelineForm_.stackEntries}, state,
                  [&](uint32_t samples) { return runRound(tile, samples, false, blocks); });
@@ -390,10 +421,11 @@ RoundState VulkanDevice::runRound(const TileRequest& tile, uint32_t samples, boo
         submit(tile, count, begin && isFirst, isLast);
     });
     readBuffer(pixels_, std::as_writable_bytes(blocks));
-    return inspect(blocks, tile.sampleCount);
+    return stateOf(blocks, tile.sampleCount, threads_);
 }
 
-void VulkanDevice::submit(const TileRequest& tile, uint32_t samples, bool begin, bool end)
+/// Records dispatches that give every pixel up to so many samples. `begin`: the tile's blocks are cleared before.
+void VulkanDevice::recordSamples(VkCommandBuffer commands, const TileRequest& tile, uint32_t samples, bool begin)
 {
     Dispatch job = {};
     job.tileX = tile.x;
@@ -408,65 +440,30 @@ void VulkanDevice::submit(const TileRequest& tile, uint32_t samples, bool begin,
     statistics_.dispatches += dispatches;
     std::array<uint32_t, 3> groups = {(tile.width + group_[0] - 1) / group_[0],
                                       (tile.height + group_[1] - 1) / group_[1], 1};
-    uint64_t bytes = uint64_t{tile.width} * tile.height * sizeof(PixelBlock);
+    if (begin) {
+        uint64_t bytes = uint64_t{tile.width} * tile.height * sizeof(PixelBlock);
+        vkCmdFillBuffer(commands, pixels_.handle.get(), 0, bytes, 0);
+        recordBarrier(commands, TRANSFER_WRITE, COMPUTE_USE);
+    }
+    for (uint32_t i = 0; i < dispatches; i++) {
+        if (i > 0) recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE);
+        recordDispatch(commands, *active_, std::as_bytes(std::span(&job, 1)), groups);
+    }
+}
+
+void VulkanDevice::submit(const TileRequest& tile, uint32_t samples, bool begin, bool end)
+{
     runCommands(*context_, tileName(tile), [&](VkCommandBuffer commands) {
-        if (begin) {
-            vkCmdFillBuffer(commands, pixels_.handle.get(), 0, bytes, 0);
-            recordBarrier(commands, TRANSFER_WRITE, COMPUTE_USE);
-        }
-        for (uint32_t i = 0; i < dispatches; i++) {
-            if (i > 0) recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE);
-            recordDispatch(commands, *active_, std::as_bytes(std::span(&job, 1)), groups);
-        }
+        recordSamples(commands, tile, samples, begin);
         // Commands submitted later see only what a barrier made visible.
         if (end)
-            recordReadBack(commands, pixels_, bytes);
+            recordReadBack(commands, pixels_, uint64_t{tile.width} * tile.height * sizeof(PixelBlock));
         else
             recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE);
     });
 }
 
-VulkanDeviceInfo describe(const PhysicalDevice& device)
-{
-    const VkPhysicalDeviceLimits& limits = device.properties.limits;
-    uint32_t version = device.properties.apiVersion;
-    VulkanDeviceInfo info;
-    info.index = device.index;
-    info.name = device.name;
-    info.driver = device.driver;
-    info.kind = device.kind;
-    info.uuid = device.uuid;
-    info.apiVersion = fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version),
-                                  VK_API_VERSION_MINOR(version), VK_API_VERSION_PATCH(version));
-    info.deviceMemory = mainHeapBytes(device);
-    info.maxStorageBufferBytes = limits.maxStorageBufferRange;
-    info.maxTexelBufferElements = limits.maxTexelBufferElements;
-    info.subgroupSize = device.subgroupSize;
-    info.maxGroupInvocations = limits.maxComputeWorkGroupInvocations;
-    info.unusable = whyUnusable(device);
-    return info;
-}
-
 }  // namespace
-
-std::vector<VulkanDeviceInfo> listVulkanDevices(std::string& whyNone)
-{
-    std::vector<VulkanDeviceInfo> infos;
-    whyNone.clear();
-    try {
-        std::shared_ptr<Instance> instance = openInstance(false);
-        for (const PhysicalDevice& device : physicalDevices(*instance))
-            infos.push_back(describe(device));
-        if (infos.empty())
-            whyNone = "no Vulkan device found: drivers are installed, and none of them finds its "
-                      "hardware; install a software one (Debian: mesa-vulkan-drivers) or use "
-                      "--device cpu";
-    } catch (const Error& error) {
-        if (error.kind != ErrorKind::noDevice) throw;
-        whyNone = error.what();
-    }
-    return infos;
-}
 
 std::unique_ptr<Device> makeVulkanDevice(uint32_t index, const DeviceOptions& options)
 {

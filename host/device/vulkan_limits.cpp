@@ -134,10 +134,16 @@ uint32_t defaultStepBudget(const PhysicalDevice& device)
     return device.kind == "software" ? 4000 : 1u << 16;
 }
 
+uint64_t bufferShare(const PhysicalDevice& device, uint64_t bytesEach, uint64_t most)
+{
+    return std::clamp<uint64_t>(mainHeapBytes(device) / 16 / bytesEach, 1u << 16, most);
+}
+
 uint32_t tilePixelLimit(const PhysicalDevice& device, const std::array<uint32_t, 2>& group)
 {
-    // Enough invocations to fill the device; small enough on software to answer Ctrl-C soon.
-    uint64_t wanted = device.kind == "software" ? 1u << 16 : 1u << 18;
+    // Enough invocations to fill the device several times, lest few long paths at the end leave it idle; small enough
+    // on software to answer Ctrl-C soon.
+    uint64_t wanted = device.kind == "software" ? 1u << 16 : bufferShare(device, sizeof(SuspendedPath), 1u << 20);
     const VkPhysicalDeviceLimits& limits = device.properties.limits;
     uint64_t range = std::min<uint64_t>(limits.maxStorageBufferRange, device.maxAllocationBytes);
     uint64_t invocations = uint64_t{limits.maxComputeWorkGroupCount[0]} * group[0] * group[1];

@@ -41,6 +41,9 @@ uint32_t chooseStackSize(uint32_t treeDepth);
 /// Steps one invocation takes a dispatch when the user named none.
 uint32_t defaultStepBudget(const PhysicalDevice& device);
 
+/// How many of buffers' elements of so many bytes fit a small share of the device's memory: 2^16 to `most`.
+uint64_t bufferShare(const PhysicalDevice& device, uint64_t bytesEach, uint64_t most);
+
 /// Largest tile [pixels]: bounded by the suspended paths, which must fit one storage buffer, and by the
 /// workgroups of shape `group` that one dispatch may have in a row.
 uint32_t tilePixelLimit(const PhysicalDevice& device, const std::array<uint32_t, 2>& group);

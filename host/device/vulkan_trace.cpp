@@ -1,9 +1,11 @@
 #include "device/vulkan_trace.h"
 
+#include "device/vulkan_limits.h"
 #include "shared/bindings.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace sahl {
 
@@ -17,7 +19,8 @@ uint64_t raysAtOnce(const TraceHost& host)
     uint64_t range =
         std::min<uint64_t>(limits.maxStorageBufferRange, host.context.physical.maxAllocationBytes);
     uint64_t invocations = uint64_t{limits.maxComputeWorkGroupCount[0]} * host.groupSize;
-    return std::min({uint64_t{1} << 20, range / sizeof(SuspendedWalk), invocations});
+    const uint64_t wanted = bufferShare(host.context.physical, sizeof(SuspendedWalk), 1u << 22);
+    return std::min({wanted, range / sizeof(SuspendedWalk), invocations});
 }
 
 /// The buffers of the rays in flight.
@@ -57,9 +60,12 @@ RoundState inspect(std::span<const TraceHit> hits)
     return state;
 }
 
-/// Runs dispatches and waits for them. Returns the seconds that this took [s].
-double submit(const TraceHost& host, const std::string& name, TraceDispatch job,
-              uint32_t dispatches)
+enum class Repeat { goesOn, beginsAgain };
+
+/// Runs dispatches, of which each after the first goes on with the walks or begins them again, and waits for them.
+/// Returns the seconds that this took [s].
+double submit(const TraceHost& host, const std::string& name, TraceDispatch job, uint32_t dispatches,
+              Repeat repeat)
 {
     const uint32_t groups = (job.rayCount + host.groupSize - 1) / host.groupSize;
     auto start = std::chrono::steady_clock::now();
@@ -68,12 +74,25 @@ double submit(const TraceHost& host, const std::string& name, TraceDispatch job,
             recordDispatch(commands, host.pipeline, std::as_bytes(std::span(&job, 1)),
                            {groups, 1, 1});
             recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE);
-            job.begin = 0;
+            if (repeat == Repeat::goesOn) job.begin = 0;
         }
     });
     std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     host.statistics.dispatches += dispatches;
     return seconds.count();
+}
+
+/// Seconds of one dispatch among many: a graphics card that had nothing to do takes a while to its full speed.
+double steadySeconds(const TraceHost& host, const std::string& name, const TraceDispatch& job)
+{
+    constexpr double LEAST_SECONDS = 0.05;  // far below what watchdogs allow
+    constexpr uint32_t MOST_DISPATCHES = 1 << 14;
+    for (uint32_t dispatches = 1;;) {
+        const double seconds = submit(host, name, job, dispatches, Repeat::beginsAgain);
+        if (seconds >= LEAST_SECONDS || dispatches >= MOST_DISPATCHES) return seconds / dispatches;
+        const double factor = std::clamp(1.2 * LEAST_SECONDS / seconds, 1.5, 8.0);
+        dispatches = static_cast<uint32_t>(std::ceil(dispatches * factor));
+    }
 }
 
 }  // namespace
@@ -91,11 +110,13 @@ double traceRaysOnVulkan(const TraceHost& host, std::span<const TraceRay> rays, 
         const std::string name = fmt::format("trace rays {} to {}", first, first + count - 1);
         writeBuffer(host.context, buffers.rays, std::as_bytes(rays.subspan(first, count)));
 
+        double secondsOfBatch = 0;
+        const uint64_t resumptions = host.statistics.resumptions;
+        auto jobOf = [&](bool begin) {
+            return TraceDispatch{static_cast<uint32_t>(count), anyHit, host.statistics.stepBudget, begin};
+        };
         auto runRound = [&](uint32_t dispatches, bool begin) {
-            seconds +=
-                submit(host, name,
-                       {static_cast<uint32_t>(count), anyHit, host.statistics.stepBudget, begin},
-                       dispatches);
+            secondsOfBatch += submit(host, name, jobOf(begin), dispatches, Repeat::goesOn);
             runCommands(host.context, name, [&](VkCommandBuffer commands) {
                 recordReadBack(commands, buffers.hits, found.size_bytes());
             });
@@ -104,6 +125,10 @@ double traceRaysOnVulkan(const TraceHost& host, std::span<const TraceRay> rays, 
         };
         host.work.finish({name, host.scene.stepsPerSample, host.stackSize}, runRound(1, true),
                          [&](uint32_t dispatches) { return runRound(dispatches, false); });
+        const bool inOneGo = host.statistics.resumptions == resumptions;
+        if (host.context.physical.kind != "software" && inOneGo)
+            secondsOfBatch = steadySeconds(host, name, jobOf(true));
+        seconds += secondsOfBatch;
     }
     return seconds;
 }

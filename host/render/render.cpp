@@ -108,6 +108,24 @@ std::vector<TileRequest> tilesOf(uint32_t width, uint32_t height, uint32_t tileS
     return tiles;
 }
 
+namespace {
+
+/// What follows tile i of a pass, in that pass or the next one.
+std::optional<TileRequest> tileAfter(const TileRequest& tile, std::span<const TileRequest> tiles, size_t i,
+                                     const RenderPlan& plan)
+{
+    const bool inThisPass = i + 1 < tiles.size();
+    const uint32_t first = inThisPass ? tile.firstSample : tile.firstSample + BLOCK_SIZE;
+    const uint32_t done = first - plan.firstSample;
+    if (done >= plan.sampleCount) return {};
+    TileRequest next = tiles[inThisPass ? i + 1 : 0];
+    next.firstSample = first;
+    next.sampleCount = std::min(BLOCK_SIZE, plan.sampleCount - done);
+    return next;
+}
+
+}  // namespace
+
 RenderResult renderPicture(Device& device, const RenderPlan& plan,
                            const std::function<void(const RenderProgress&)>& report,
                            const std::function<void(const RenderResult&)>& passDone)
@@ -139,6 +157,8 @@ RenderResult renderPicture(Device& device, const RenderPlan& plan,
             pass[i].tile.firstSample = plan.firstSample + done;
             pass[i].tile.sampleCount = count;
             pass[i].blocks.resize(size_t{tiles[i].width} * tiles[i].height);
+            if (const std::optional<TileRequest> next = tileAfter(pass[i].tile, tiles, i, plan))
+                device.expectTile(inFullPicture(*next, plan));
             device.render(inFullPicture(pass[i].tile, plan), pass[i].blocks);
 
             progress.rays += raysIn(pass[i].blocks, plan.threads);

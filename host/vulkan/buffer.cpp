@@ -1,5 +1,7 @@
 #include "vulkan/buffer.h"
 
+#include "util/parallel.h"
+
 #include <algorithm>
 #include <cstring>
 #include <optional>
@@ -11,6 +13,10 @@ namespace {
 constexpr uint64_t EMPTY_BUFFER_BYTES = 16;  // one texel
 constexpr uint64_t TEXEL_BYTES = 16;         // RGBA32UI
 constexpr uint64_t STAGING_BYTES = uint64_t{64} << 20;
+
+// One core copies slower than memory allows, and a device waits meanwhile.
+constexpr size_t COPY_BYTES = size_t{4} << 20;
+constexpr unsigned COPY_THREADS = 4;
 
 constexpr VkMemoryPropertyFlags LOCAL = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
 constexpr VkMemoryPropertyFlags VISIBLE =
@@ -239,8 +245,12 @@ void recordReadBack(VkCommandBuffer commands, const Buffer& buffer, uint64_t byt
 void readBuffer(const Buffer& buffer, std::span<std::byte> data, uint64_t offset)
 {
     if (data.empty()) return;
-    const std::byte* from = buffer.mapped ? buffer.mapped : buffer.staging->mapped;
-    std::memcpy(data.data(), from + offset, data.size());
+    const std::byte* from = (buffer.mapped ? buffer.mapped : buffer.staging->mapped) + offset;
+    const size_t parts = (data.size() + COPY_BYTES - 1) / COPY_BYTES;
+    parallelFor(parts, std::min(COPY_THREADS, defaultThreadCount()), [&](size_t i) {
+        const size_t first = i * COPY_BYTES;
+        std::memcpy(data.data() + first, from + first, std::min(COPY_BYTES, data.size() - first));
+    });
 }
 
 }  // namespace sahl

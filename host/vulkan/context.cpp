@@ -30,29 +30,52 @@ void createDevice(Context& context)
     vkGetDeviceQueue(device, physical.queueFamily, 0, &context.queue);
 }
 
-void createCommandBuffer(Context& context)
+void createCommandSlot(const Context& context, CommandSlot& slot)
 {
+    const std::string& name = context.physical.name;
     auto pool = vulkanStruct<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
     pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     pool.queueFamilyIndex = context.physical.queueFamily;
-    check(vkCreateCommandPool(context.device, &pool, nullptr, &context.pool),
-          "create command pool on '{}'", context.physical.name);
+    check(vkCreateCommandPool(context.device, &pool, nullptr, &slot.pool), "create command pool on '{}'", name);
     auto commands =
         vulkanStruct<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
-    commands.commandPool = context.pool;
+    commands.commandPool = slot.pool;
     commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     commands.commandBufferCount = 1;
-    check(vkAllocateCommandBuffers(context.device, &commands, &context.commands),
-          "allocate command buffer on '{}'", context.physical.name);
+    check(vkAllocateCommandBuffers(context.device, &commands, &slot.commands), "allocate command buffer on '{}'", name);
     auto fence = vulkanStruct<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
-    check(vkCreateFence(context.device, &fence, nullptr, &context.fence), "create fence on '{}'",
-          context.physical.name);
+    check(vkCreateFence(context.device, &fence, nullptr, &slot.fence), "create fence on '{}'", name);
 }
 
-void waitForFence(Context& context, const std::string& what)
+void destroyCommandSlot(VkDevice device, const CommandSlot& slot)
+{
+    vkDestroyFence(device, slot.fence, nullptr);
+    vkDestroyCommandPool(device, slot.pool, nullptr);
+}
+
+void submitCommands(Context& context, const CommandSlot& slot, const std::string& what,
+                    const std::function<void(VkCommandBuffer)>& record)
+{
+    const std::string& name = context.physical.name;
+    check(vkResetCommandPool(context.device, slot.pool, 0), "{}: reset commands of '{}'", what, name);
+    auto begin =
+        vulkanStruct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check(vkBeginCommandBuffer(slot.commands, &begin), "{}: begin commands for '{}'", what, name);
+    record(slot.commands);
+    check(vkEndCommandBuffer(slot.commands), "{}: end commands for '{}'", what, name);
+
+    check(vkResetFences(context.device, 1, &slot.fence), "{}: reset fence of '{}'", what, name);
+    auto submit = vulkanStruct<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &slot.commands;
+    check(vkQueueSubmit(context.queue, 1, &submit, slot.fence), "{}: submit to '{}'", what, name);
+}
+
+void waitForFence(Context& context, const CommandSlot& slot, const std::string& what)
 {
     auto nanoseconds = static_cast<uint64_t>(context.timeoutSeconds * 1e9);
-    VkResult result = vkWaitForFences(context.device, 1, &context.fence, VK_TRUE, nanoseconds);
+    VkResult result = vkWaitForFences(context.device, 1, &slot.fence, VK_TRUE, nanoseconds);
     if (result == VK_TIMEOUT) {
         context.notResponding = true;
         throw Error(ErrorKind::deviceLost,
@@ -74,8 +97,7 @@ Context::~Context()
         return;
     }
     if (device == VK_NULL_HANDLE) return;
-    vkDestroyFence(device, fence, nullptr);
-    vkDestroyCommandPool(device, pool, nullptr);
+    destroyCommandSlot(device, slot);
     vkDestroyDevice(device, nullptr);
 }
 
@@ -97,31 +119,48 @@ std::unique_ptr<Context> openContext(std::shared_ptr<Instance> instance,
     context->timeoutSeconds =
         physical.kind == "software" ? SOFTWARE_TIMEOUT_SECONDS : HARDWARE_TIMEOUT_SECONDS;
     createDevice(*context);
-    createCommandBuffer(*context);
+    createCommandSlot(*context, context->slot);
     return context;
 }
 
 void runCommands(Context& context, const std::string& what,
                  const std::function<void(VkCommandBuffer)>& record)
 {
-    const std::string& name = context.physical.name;
-    check(vkResetCommandPool(context.device, context.pool, 0), "{}: reset commands of '{}'", what,
-          name);
-    auto begin =
-        vulkanStruct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
-    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    check(vkBeginCommandBuffer(context.commands, &begin), "{}: begin commands for '{}'", what,
-          name);
-    record(context.commands);
-    check(vkEndCommandBuffer(context.commands), "{}: end commands for '{}'", what, name);
+    submitCommands(context, context.slot, what, record);
+    waitForFence(context, context.slot, what);
+}
 
-    check(vkResetFences(context.device, 1, &context.fence), "{}: reset fence of '{}'", what, name);
-    auto submit = vulkanStruct<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
-    submit.commandBufferCount = 1;
-    submit.pCommandBuffers = &context.commands;
-    check(vkQueueSubmit(context.queue, 1, &submit, context.fence), "{}: submit to '{}'", what,
-          name);
-    waitForFence(context, what);
+Submission::Submission(Context& context) : context_(context)
+{
+    try {
+        createCommandSlot(context, slot_);
+    } catch (...) {
+        destroyCommandSlot(context.device, slot_);
+        throw;
+    }
+}
+
+Submission::~Submission()
+{
+    try {
+        wait();
+    } catch (const Error&) {
+        // A device that is lost runs nothing any more; one that does not respond is abandoned.
+    }
+    if (!isAbandoned(context_)) destroyCommandSlot(context_.device, slot_);
+}
+
+void Submission::begin(const std::string& what, const std::function<void(VkCommandBuffer)>& record)
+{
+    submitCommands(context_, slot_, what, record);
+    what_ = what;
+}
+
+void Submission::wait()
+{
+    if (what_.empty()) return;
+    const std::string what = std::exchange(what_, {});
+    waitForFence(context_, slot_, what);
 }
 
 void recordBarrier(VkCommandBuffer commands, Access before, Access after)

@@ -77,6 +77,41 @@ TEST_F(SameBits, forEveryTileSize)
     }
 }
 
+TEST_F(SameBits, whereTilesAreBegunAhead)
+{
+    constexpr uint32_t MORE_SAMPLES = 37;
+    const Film expected = renderFilm(*makeCpuDevice({}), scene(), 0, MORE_SAMPLES);
+    for (uint32_t steps : {0u, 29u}) {
+        DeviceOptions options;
+        options.beginsAhead = true;
+        options.stepBudget = steps;  // with 29 hardly a tile is complete
+        auto device = openFirstDevice(options);
+        for (uint32_t tile : {19u, 32u, 0u})
+            EXPECT_TRUE(renderFilm(*device, scene(), 0, MORE_SAMPLES, tile) == expected) << tile << ", " << steps;
+        EXPECT_GT(device->statistics().tilesBegunAhead, 10u);
+    }
+}
+
+TEST_F(SameBits, whereAnotherTileFollowsThanWasBegunAhead)
+{
+    DeviceOptions options;
+    options.beginsAhead = true;
+    auto device = openFirstDevice(options), cpu = makeCpuDevice({});
+    const TileRequest tile = {8, 4, 16, 12, 0, 8}, expected = {24, 4, 16, 12, 0, 8}, another = {3, 2, 40, 30, 8, 5};
+    for (Device* each : {device.get(), cpu.get()}) each->setScene(scene().deviceScene());
+    for (int round = 0; round < 3; round++) {
+        for (const TileRequest& asked : {tile, another, tile, tile}) {
+            std::vector<PixelBlock> blocks(size_t{asked.width} * asked.height), reference = blocks;
+            device->expectTile(expected);
+            device->render(asked, blocks);
+            cpu->render(asked, reference);
+            EXPECT_EQ(std::memcmp(blocks.data(), reference.data(), blocks.size() * sizeof(PixelBlock)), 0);
+        }
+        device->setScene(scene().deviceScene());
+    }
+    EXPECT_GT(device->statistics().tilesBegunAhead, 2u);
+}
+
 TEST_F(SameBits, forEveryWorkgroupShape)
 {
     for (auto [width, height] : {std::pair{8u, 8u}, {32u, 4u}, {1u, 1u}, {5u, 3u}}) {
