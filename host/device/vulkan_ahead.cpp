@@ -17,6 +17,13 @@ uint64_t blockBytes(const TileRequest& tile)
 
 }  // namespace
 
+std::string nameOf(const TileRequest& tile)
+{
+    return fmt::format("render tile {}x{} at {},{}, samples {} to {}", tile.width, tile.height,
+                       tile.x, tile.y, tile.firstSample,
+                       uint64_t{tile.firstSample} + tile.sampleCount - 1);
+}
+
 /// The flight that has begun the tile, or one that is free.
 TilesAhead::Flight& TilesAhead::flightOf(const TileRequest& tile)
 {
@@ -37,7 +44,7 @@ void TilesAhead::begin(Flight& flight, const TileRequest& tile, const Buffer& pi
         flight.blocks =
             createBuffer(context_, {"blocks of a tile", bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HostUse::none});
     }
-    flight.submission.begin("render a tile ahead", [&](VkCommandBuffer commands) {
+    flight.submission.begin(nameOf(tile), [&](VkCommandBuffer commands) {
         recordBarrier(commands, ANYTHING, ANYTHING);  // the tile before is in the same buffer
         record(commands, tile);
         recordBarrier(commands, COMPUTE_WRITE, TRANSFER_READ);

@@ -10,6 +10,9 @@
 
 namespace sahl {
 
+/// For messages.
+std::string nameOf(const TileRequest& tile);
+
 class TilesAhead {
 public:
     /// Records all that a tile takes, from clearing `pixels` on, to the blocks in there.
@@ -30,8 +33,8 @@ private:
     /// A tile under way. All of them share the buffer of pixels, and each copies it to a place of its own.
     struct Flight {
         explicit Flight(Context& context) : submission(context) {}
-        Submission submission;
         Buffer blocks;
+        Submission submission;  // after what it writes to, so that it ends before that goes
         TileRequest tile;
         bool begun = false;
         Clock::time_point since;

@@ -29,13 +29,6 @@ double secondsSince(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::string tileName(const TileRequest& tile)
-{
-    return fmt::format("render tile {}x{} at {},{}, samples {} to {}", tile.width, tile.height,
-                       tile.x, tile.y, tile.firstSample,
-                       uint64_t{tile.firstSample} + tile.sampleCount - 1);
-}
-
 /// The variant that the options name, or that was tuned, or that suits the driver; with the shape of a workgroup that
 /// the options name.
 Variant chooseVariant(const PhysicalDevice& device, const DeviceOptions& options)
@@ -306,7 +299,7 @@ void VulkanDevice::requireTile(const TileRequest& tile, size_t blockCount) const
         !samplesFit)
         throw usageError("{}: not a tile that '{}' can render (scene set: {}, blocks: {}, most "
                          "pixels: {}, workgroups of {}x{})",
-                         tileName(tile), context_->physical.name, scene_ != nullptr, blockCount,
+                         nameOf(tile), context_->physical.name, scene_ != nullptr, blockCount,
                          maxTilePixels(), group_[0], group_[1]);
 }
 
@@ -315,7 +308,7 @@ void VulkanDevice::render(const TileRequest& tile, std::span<PixelBlock> blocks)
     auto start = std::chrono::steady_clock::now();
     requireTile(tile, blocks.size());
     if (waves_) {
-        waves_->render(tileName(tile), tile, blocks);
+        waves_->render(nameOf(tile), tile, blocks);
     } else {
         renderWhole(tile, blocks);
     }
@@ -409,7 +402,7 @@ void VulkanDevice::renderBlocks(const TileRequest& tile, std::span<PixelBlock> b
 {
     ahead_.drain();
     RoundState state = runRound(tile, tile.sampleCount, true, blocks);
-    work_.finish({tileName(tile), scene_->stepsPerSample, pipelineForm_.stackEntries}, state,
+    work_.finish({nameOf(tile), scene_->stepsPerSample, pipelineForm_.stackEntries}, state,
                  [&](uint32_t samples) { return runRound(tile, samples, false, blocks); });
 }
 
@@ -453,7 +446,7 @@ void VulkanDevice::recordSamples(VkCommandBuffer commands, const TileRequest& ti
 
 void VulkanDevice::submit(const TileRequest& tile, uint32_t samples, bool begin, bool end)
 {
-    runCommands(*context_, tileName(tile), [&](VkCommandBuffer commands) {
+    runCommands(*context_, nameOf(tile), [&](VkCommandBuffer commands) {
         recordSamples(commands, tile, samples, begin);
         // Commands submitted later see only what a barrier made visible.
         if (end)

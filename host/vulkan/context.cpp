@@ -142,6 +142,7 @@ Submission::Submission(Context& context) : context_(context)
 
 Submission::~Submission()
 {
+    if (isAbandoned(context_)) return;
     try {
         wait();
     } catch (const Error&) {

@@ -14,7 +14,24 @@ class DeviceFaults : public DeviceTest {
 protected:
     static void openAndRender(const TorusScene& torus, const DeviceOptions& options = {})
     {
-        torus.render(*openFirstDevice(options), TorusScene::wholePicture());
+        auto device = openFirstDevice(options);
+        torus.render(*device, TorusScene::wholePicture());
+        if (options.beginsAhead) renderAhead(*device);
+    }
+
+    /// Three tiles, of which each is begun while the one before is read.
+    static void renderAhead(Device& device)
+    {
+        TileRequest tile = TorusScene::wholePicture();
+        std::vector<PixelBlock> blocks(size_t{tile.width} * tile.height);
+        for (int i = 0; i < 3; i++) {
+            tile.firstSample += BLOCK_SIZE;
+            TileRequest next = tile;
+            next.firstSample += BLOCK_SIZE;
+            if (i < 2) device.expectTile(next);
+            device.render(tile, blocks);
+        }
+        EXPECT_EQ(device.statistics().tilesBegunAhead, 2u);
     }
 
     /// The error that opening a device and rendering ends in; fails the test when there is none.
@@ -82,6 +99,36 @@ TEST_F(LongDeviceFaults, outOfMemoryAtAnyCallInWaves_isAnErrorAndLeavesNothingBe
     DeviceOptions options;
     options.variant = "texel-wave";
     EXPECT_GT(failAtCalls(1, options), 50u);
+}
+
+TEST_F(LongDeviceFaults, outOfMemoryAtAnyCallWithTilesBegunAhead_isAnErrorAndLeavesNothingBehind)
+{
+    DeviceOptions options;
+    options.beginsAhead = true;
+    EXPECT_GT(failAtCalls(1, options), 70u);
+}
+
+TEST_F(DeviceFaults, deviceLostWhileATileIsBegunAhead_isNamedWithTheTile)
+{
+    DeviceOptions options;
+    options.beginsAhead = true;
+    for (const char* call : {"vkQueueSubmit", "vkWaitForFences"}) {
+        uint64_t calls = 0;
+        hooks_.onCall = {};
+        auto device = openFirstDevice(options);
+        torus_.render(*device, TorusScene::wholePicture());
+        hooks_.onCall = [&](const std::string& name) -> std::optional<VkResult> {
+            if (name == call && ++calls == 2) return VK_ERROR_DEVICE_LOST;
+            return {};
+        };
+        try {
+            renderAhead(*device);
+            ADD_FAILURE() << call << ": rendering did not fail";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind, ErrorKind::deviceLost);
+            expectMentions(error, {"render tile 32x24 at 0,0, samples 16 to 19", "lost"});
+        }
+    }
 }
 
 TEST_F(DeviceFaults, allocationFails_saysHowMuchWasNeededAndForWhat)
