@@ -37,7 +37,8 @@ bool areExact(std::span<const glm::vec2> operands, std::span<const glm::vec2> re
 bool dividesExactly(Context& context)
 {
     std::mt19937 random(1);
-    const uint32_t fitting = context.physical.properties.limits.maxStorageBufferRange / sizeof(glm::vec2);
+    constexpr uint32_t PAIR_BYTES = sizeof(glm::vec2);
+    const uint32_t fitting = context.physical.properties.limits.maxStorageBufferRange / PAIR_BYTES;
     const uint32_t pairs = std::min(PAIRS, fitting / GROUP * GROUP);
     std::vector<glm::vec2> operands(pairs), results(pairs);
     for (uint32_t i = 0; i < pairs; i++) {

@@ -28,21 +28,13 @@ class FilmAdder {
 public:
     FilmAdder(Film& film, unsigned threads, bool meanwhile) : film_(film), threads_(threads), meanwhile_(meanwhile) {}
 
-    /// Exchanges `pass`, of which the film gets all tiles, for one to be used anew.
+    /// The film gets all tiles of `pass`, which is left as one to be used anew.
     void add(Pass& pass)
     {
+        if (!meanwhile_) return addAll(pass);
         wait();
-        std::swap(pass, passes_);
-        auto addAll = [this] {
-            for (const FinishedTile& done : passes_) {
-                const TileRequest& tile = done.tile;
-                film_.add(tile.x, tile.y, tile.width, tile.height, tile.firstSample, done.blocks, threads_);
-            }
-        };
-        if (meanwhile_)
-            adding_ = std::async(std::launch::async, addAll);
-        else
-            addAll();
+        std::swap(pass, underWay_);
+        adding_ = std::async(std::launch::async, [this] { addAll(underWay_); });
     }
 
     /// Until the film has all that was added.
@@ -52,10 +44,18 @@ public:
     }
 
 private:
+    void addAll(const Pass& pass)
+    {
+        for (const FinishedTile& done : pass) {
+            const TileRequest& tile = done.tile;
+            film_.add(tile.x, tile.y, tile.width, tile.height, tile.firstSample, done.blocks, threads_);
+        }
+    }
+
     Film& film_;
     unsigned threads_;
     bool meanwhile_;
-    Pass passes_;
+    Pass underWay_;
     std::future<void> adding_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "render/verify.h"
 #include "support/device_test.h"
+#include "support/forwarding_device.h"
 #include "support/render_scenes.h"
 #include "support/source_folder.h"
 
@@ -95,10 +96,8 @@ INSTANTIATE_TEST_SUITE_P(, VerifyScenes, ::testing::ValuesIn(CASES),
 TEST_F(DeviceTest, verifyFindsTheFirstPixelSampleAndBounceOfADifference)
 {
     // The two devices get scenes that differ in one material, seen first after one bounce at most.
-    struct Tampered final : Device {
-        std::unique_ptr<Device> inner = makeCpuDevice({});
+    struct Tampered final : ForwardingDevice {
         std::vector<Material> materials;
-        DeviceInfo info() const override { return inner->info(); }
         void setScene(const DeviceScene& scene) override
         {
             DeviceScene changed = scene;
@@ -107,31 +106,11 @@ TEST_F(DeviceTest, verifyFindsTheFirstPixelSampleAndBounceOfADifference)
             changed.materials = materials;
             inner->setScene(changed);
         }
-        void render(const TileRequest& tile, std::span<PixelBlock> blocks) override
-        {
-            inner->render(tile, blocks);
-        }
-        void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override
-        {
-            inner->renderFirstHits(tile, pixels);
-        }
-        double traceRays(std::span<const TraceRay> rays, bool anyHit, std::span<TraceHit> hits) override
-        {
-            return inner->traceRays(rays, anyHit, hits);
-        }
-        std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,
-                                                       const AdaptiveRule& rule) override
-        {
-            return inner->beginAdaptive(window, rule);
-        }
-        uint32_t samplerKind() const override { return inner->samplerKind(); }
-        uint32_t maxTilePixels() const override { return inner->maxTilePixels(); }
-        uint64_t maxAdaptivePixels() const override { return inner->maxAdaptivePixels(); }
-        DeviceStatistics statistics() const override { return inner->statistics(); }
     };
     PreparedScene prepared =
         prepareScene(builtInScene(smallPicture(48, 32, 8)), BvhBuild::sweep, 2);
     Tampered tampered;
+    tampered.inner = makeCpuDevice({});
     auto cpu = makeCpuDevice({});
     VerifyResult result = verifyDevice(tampered, *cpu, prepared.deviceScene(), 8, 0, [](double) {});
     ASSERT_TRUE(result.first.has_value());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/render_adaptive.h"
+#include "support/forwarding_device.h"
 #include "support/render_scenes.h"
 
 namespace sahl::testing {
@@ -27,31 +28,8 @@ inline RenderResult renderAdaptiveFilm(Device& device, const PreparedScene& scen
 }
 
 /// A device that has room for few pixels under adaptive sampling.
-struct SmallDevice : Device {
-    std::unique_ptr<Device> inner;
-    DeviceInfo info() const override { return inner->info(); }
-    void setScene(const DeviceScene& scene) override { inner->setScene(scene); }
-    void render(const TileRequest& tile, std::span<PixelBlock> blocks) override
-    {
-        inner->render(tile, blocks);
-    }
-    void renderFirstHits(const TileRequest& tile, std::span<FirstHits> pixels) override
-    {
-        inner->renderFirstHits(tile, pixels);
-    }
-    double traceRays(std::span<const TraceRay> rays, bool anyHit, std::span<TraceHit> hits) override
-    {
-        return inner->traceRays(rays, anyHit, hits);
-    }
-    std::unique_ptr<AdaptivePicture> beginAdaptive(const AdaptiveWindow& window,
-                                                   const AdaptiveRule& rule) override
-    {
-        return inner->beginAdaptive(window, rule);
-    }
-    uint32_t samplerKind() const override { return inner->samplerKind(); }
-    uint32_t maxTilePixels() const override { return inner->maxTilePixels(); }
+struct SmallDevice : ForwardingDevice {
     uint64_t maxAdaptivePixels() const override { return 300; }
-    DeviceStatistics statistics() const override { return inner->statistics(); }
 };
 
 inline uint32_t samplesOf(const Film& film, size_t pixel)
