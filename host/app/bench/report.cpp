@@ -66,6 +66,7 @@ BenchRow measure(const BenchScene& described, const fs::path& mesh, const BenchO
     plan.width = plan.height = options.size;
     plan.sampleCount = 1;
     plan.tileSize = options.common.tileSize;
+    plan.threads = threadsFor(options.common);
     double renderSeconds = 0;
     Counters counters = {};
     for (uint32_t i = 0; i < repeats(options) && interruptSignal() == 0; i++) {

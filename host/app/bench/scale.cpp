@@ -60,11 +60,13 @@ struct Spent {
     double processor = 0;
 };
 
-Spent renderAll(Device& device, uint32_t size, uint32_t spp)
+/// By so many threads of the host.
+Spent renderAll(Device& device, uint32_t size, uint32_t spp, unsigned threads)
 {
     RenderPlan plan;
     plan.width = plan.height = size;
     plan.sampleCount = spp;
+    plan.threads = threads;
     const double before = processorSeconds();
     const double seconds = renderPicture(device, plan, [](const RenderProgress&) {}).seconds;
     return {seconds, processorSeconds() - before};
@@ -240,7 +242,7 @@ Json growThreads(const BenchOptions& options, const PreparedScene& scene,
         device.threads = threads;
         const std::unique_ptr<Device> cpu = makeCpuDevice(device);
         cpu->setScene(scene.deviceScene());
-        return renderAll(*cpu, options.size, BLOCK_SIZE);
+        return renderAll(*cpu, options.size, BLOCK_SIZE, threads);
     };
     auto samples = [&](uint32_t) { return double(options.size) * options.size * BLOCK_SIZE; };
     return grow({"threads", doublings(1, threadsFor(options.common)), render, samples}, options,
@@ -253,7 +255,7 @@ Json growPixels(const BenchOptions& options, Device& device, std::vector<LineCha
         const PreparedScene scene = prepareScene(
             torusScene(TRIANGLES, size, 1), options.common.bvhBuild, threadsFor(options.common));
         device.setScene(scene.deviceScene());
-        return renderAll(device, size, BLOCK_SIZE);
+        return renderAll(device, size, BLOCK_SIZE, threadsFor(options.common));
     };
     auto samples = [](uint32_t size) { return double(size) * size * BLOCK_SIZE; };
     const uint32_t least = std::max(options.size / 8, 1u);
@@ -262,7 +264,7 @@ Json growPixels(const BenchOptions& options, Device& device, std::vector<LineCha
 
 Json growSamples(const BenchOptions& options, Device& device, std::vector<LineChart>& charts)
 {
-    auto render = [&](uint32_t spp) { return renderAll(device, options.size, spp); };
+    auto render = [&](uint32_t spp) { return renderAll(device, options.size, spp, threadsFor(options.common)); };
     auto samples = [&](uint32_t spp) { return double(options.size) * options.size * spp; };
     return grow({"spp", doublings(1, 4 * BLOCK_SIZE), render, samples}, options, charts);
 }
@@ -275,7 +277,7 @@ Json growBounces(const BenchOptions& options, Device& device, std::vector<LineCh
     auto render = [&](uint32_t bounces) {
         scene.scene.settings.maxBounces = bounces;
         device.setScene(scene.deviceScene());
-        return renderAll(device, options.size, BLOCK_SIZE);
+        return renderAll(device, options.size, BLOCK_SIZE, threadsFor(options.common));
     };
     render(1);
     auto samples = [&](uint32_t) { return double(options.size) * options.size * BLOCK_SIZE; };
@@ -298,7 +300,7 @@ Json benchScale(const BenchOptions& options)
     json["byThreads"] = growThreads(options, scene, charts);
     json["byPixels"] = growPixels(options, *device, charts);
     device->setScene(scene.deviceScene());
-    renderAll(*device, options.size, 1);
+    renderAll(*device, options.size, 1, threadsFor(options.common));
     json["bySamples"] = growSamples(options, *device, charts);
     json["byBounces"] = growBounces(options, *device, charts);
     if (!options.plotPath.empty() && interruptSignal() == 0)
