@@ -99,6 +99,16 @@ class GpuReport(unittest.TestCase):
         self.assertEqual(report["verify"][2]["failure"], "7 pixels differ")
         self.assertIn("verify, native math: 7 pixels differ", done.stdout)
 
+    def test_verification_whose_answer_is_no_json_is_told(self):
+        program = self.folder / "sahl"
+        program.write_text(FAKE.replace("print(json.dumps({\"equal\"", "print(str({\"equal\""), encoding="utf-8")
+        program.chmod(0o755)
+        done, report = self.report(program, "--step-seconds", "1")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("verify, auto math: its answer is not understood", done.stdout)
+        step, = [step for step in report["steps"] if step["name"] == "verify, auto math"]
+        self.assertIn("numbers are not understood", step["failure"])
+
     def test_no_step_begins_once_the_time_is_over(self):
         program = self.folder / "sahl"
         program.write_text(FAKE, encoding="utf-8")
