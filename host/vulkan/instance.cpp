@@ -157,7 +157,7 @@ std::shared_ptr<Instance> makeInstance(bool validation)
 }
 
 /// Destroys the instance when another has been closed. The loader unloads drivers with the last instance, and
-/// NVIDIA's cannot be loaded again and again in a process.
+/// NVIDIA's was not found any more after some dozens of times.
 void destroyLater(VkInstance handle)
 {
     static std::mutex mutex;
