@@ -79,7 +79,7 @@ struct DeviceStatistics {
     bool exactMath = false;     ///< division and root made exact rather than the device's own
     bool texelBuffers = false;  ///< scene read through texel buffers rather than storage buffers
     uint32_t pipelines = 0;     ///< that were made of kernels
-    uint64_t tilesBegunAhead = 0;  ///< while the host waited for, and read, the one before
+    uint64_t tilesBegunAhead = 0;  ///< that were asked for and under way already (see expectTile())
     std::string variant;        ///< way in which kernels run (variants.h); empty on the CPU
 };
 
@@ -193,7 +193,7 @@ struct DeviceOptions {
     uint32_t groupWidth = 0, groupHeight = 0;  ///< 0: by the variant
     uint32_t stepBudget = 0;           ///< 0: by the driver; steps one invocation takes a dispatch
     uint32_t waveSlots = 0;            ///< 0: by the driver; paths under way at a time, where they go in waves
-    bool beginsAhead = false;          ///< expectTile() has an effect on software devices too, where it gains nothing
+    bool beginsAhead = false;          ///< for tests: expectTile() has an effect on any device, however slow
     bool validation = false;           ///< Khronos validation with synchronization checks, if installed
 };
 

@@ -62,7 +62,10 @@ double TilesAhead::render(const TileRequest& tile, const std::optional<TileReque
 {
     Flight& flight = flightOf(tile);
     Flight& other = *flights_[&flight == flights_[0].get() ? 1 : 0];
-    if (!flight.begun) begin(flight, tile, pixels, record);
+    if (flight.begun)
+        taken_++;
+    else
+        begin(flight, tile, pixels, record);
     if (next && !other.begun) begin(other, *next, pixels, record);
     flight.begun = false;
     flight.submission.wait();

@@ -25,6 +25,9 @@ public:
     double render(const TileRequest& tile, const std::optional<TileRequest>& next, const Buffer& pixels,
                   const RecordTile& record, std::span<PixelBlock> blocks);
 
+    /// Tiles that were asked for and begun before.
+    uint64_t taken() const { return taken_; }
+
     /// Waits for what is under way and forgets it: before the buffers or pipelines in use change.
     void drain();
 
@@ -46,6 +49,7 @@ private:
     Context& context_;
     std::unique_ptr<Flight> flights_[2];
     Clock::time_point lastEnd_ = {};
+    uint64_t taken_ = 0;
 };
 
 }  // namespace sahl

@@ -227,7 +227,7 @@ void VulkanDevice::makePathPipelines()
         return makePipeline(kernel, bindings, sizeof(WaveDispatch), resumes);
     };
     const bool ballots = made.paths == Variant::Paths::waves;
-    const WaveSetup setup = {ballots, group_[0] * group_[1], pipelineForm_.stackEntries, options_.waveSlots};
+    const WaveSetup setup = {ballots, group_[0] * group_[1], pipelineForm_.stackEntries, threads_, options_.waveSlots};
     waves_ = std::make_unique<VulkanWaves>(*context_, setup, make, work_, statistics_);
 }
 
@@ -320,8 +320,9 @@ void VulkanDevice::render(const TileRequest& tile, std::span<PixelBlock> blocks)
 bool VulkanDevice::mayBeginAhead(const TileRequest& tile) const
 {
     const uint64_t pixels = uint64_t{tile.width} * tile.height;
-    const bool gains = context_->physical.kind != "software" || options_.beginsAhead;
-    return gains && pixels * sizeof(PixelBlock) <= pixels_.bytes && work_.fitOneSubmission(pixels, tile.sampleCount);
+    if (pixels * sizeof(PixelBlock) > pixels_.bytes) return false;
+    const bool gains = context_->physical.kind != "software" && work_.fitOneSubmission(pixels, tile.sampleCount);
+    return gains || options_.beginsAhead;
 }
 
 void VulkanDevice::renderWhole(const TileRequest& tile, std::span<PixelBlock> blocks)
@@ -339,7 +340,7 @@ void VulkanDevice::renderWhole(const TileRequest& tile, std::span<PixelBlock> bl
         recordSamples(commands, begun, begun.sampleCount, true);
     };
     const double seconds = ahead_.render(tile, expected_, pixels_, record, blocks);
-    if (expected_) statistics_.tilesBegunAhead++;
+    statistics_.tilesBegunAhead = ahead_.taken();
     work_.noteSubmission(blocks.size(), tile.sampleCount, seconds);
     // What the tile was to go on with, the next one has overwritten
     if (stateOf(blocks, tile.sampleCount, threads_).samplesMissing > 0) renderBlocks(tile, blocks);

@@ -221,13 +221,7 @@ RoundState VulkanWaves::addToBlocks(const WaveDispatch& job, std::span<PixelBloc
     });
     statistics_.dispatches++;
     readBuffer(buffers_.pixels, std::as_writable_bytes(blocks));
-    RoundState state;
-    for (const PixelBlock& block : blocks) {
-        state.samplesMissing = std::max(state.samplesMissing, job.sampleCount - block.samplesDone);
-        state.samplesDone += block.samplesDone;
-        state.faults |= block.faults;
-    }
-    return state;
+    return stateOf(blocks, job.sampleCount, setup_.threads);
 }
 
 void VulkanWaves::render(const std::string& name, const TileRequest& tile,

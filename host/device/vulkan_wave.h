@@ -17,6 +17,7 @@ struct WaveSetup {
     bool ballots = false;    ///< queues are filled by them, else by shared memory
     uint32_t groupSize = 0;  ///< invocations of a workgroup
     uint32_t stackSize = 0;
+    unsigned threads = 1;  ///< of the host
     uint32_t slots = 0;  ///< paths under way at a time; 0: as many as suit the device
 };
 

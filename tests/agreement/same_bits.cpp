@@ -88,7 +88,11 @@ TEST_F(SameBits, whereTilesAreBegunAhead)
         auto device = openFirstDevice(options);
         for (uint32_t tile : {19u, 32u, 0u})
             EXPECT_TRUE(renderFilm(*device, scene(), 0, MORE_SAMPLES, tile) == expected) << tile << ", " << steps;
-        EXPECT_GT(device->statistics().tilesBegunAhead, 10u);
+        // Of 9, 4 and 1 tiles a pass, in 5 passes each, nearly all
+        if (steps == 0)
+            EXPECT_GT(device->statistics().tilesBegunAhead, 50u);
+        else
+            EXPECT_GT(device->statistics().resumptions, 50u);
     }
 }
 
@@ -100,7 +104,7 @@ TEST_F(SameBits, whereAnotherTileFollowsThanWasBegunAhead)
     const TileRequest tile = {8, 4, 16, 12, 0, 8}, expected = {24, 4, 16, 12, 0, 8}, another = {3, 2, 40, 30, 8, 5};
     for (Device* each : {device.get(), cpu.get()}) each->setScene(scene().deviceScene());
     for (int round = 0; round < 3; round++) {
-        for (const TileRequest& asked : {tile, another, tile, tile}) {
+        for (const TileRequest& asked : {tile, another, tile, expected, tile}) {
             std::vector<PixelBlock> blocks(size_t{asked.width} * asked.height), reference = blocks;
             device->expectTile(expected);
             device->render(asked, blocks);
@@ -109,7 +113,7 @@ TEST_F(SameBits, whereAnotherTileFollowsThanWasBegunAhead)
         }
         device->setScene(scene().deviceScene());
     }
-    EXPECT_GT(device->statistics().tilesBegunAhead, 2u);
+    EXPECT_EQ(device->statistics().tilesBegunAhead, 3u) << "the expected one in each round";
 }
 
 TEST_F(SameBits, forEveryWorkgroupShape)
