@@ -4,6 +4,7 @@
 
 #include "shared/scene_types.h"
 
+#include <bit>
 #include <cstdint>
 #include <cstring>
 
@@ -99,6 +100,22 @@ inline FourUints allBitsWhere(Four a, Four b)
 inline FourUints allBitsWhereNone(FourUints refs)
 {
     return (FourUints)(refs == REF_NONE);
+}
+
+/// A bit for each place, the first lowest: whether the highest bit is clear there.
+inline uint bitsWhereHighestIsClear(FourUints v)
+{
+#ifdef __SSE__
+    return static_cast<uint>(__builtin_ia32_movmskps((Four)v)) ^ 15u;
+#else
+    return ((v[0] >> 31) | (v[1] >> 31) << 1 | (v[2] >> 31) << 2 | (v[3] >> 31) << 3) ^ 15u;
+#endif
+}
+
+/// The place of the lowest bit that is set; there must be one.
+inline uint lowestBit(uint x)
+{
+    return static_cast<uint>(std::countr_zero(x));
 }
 
 /// All bits in the places after `last`.

@@ -2,6 +2,7 @@
 // The text is included inside a struct whose members stand for the device's buffers.
 #pragma once
 
+#include "reference/axes.h"
 #include "reference/four.h"
 #include "shared/adaptive_types.h"
 #include "shared/bindings.h"
@@ -34,6 +35,7 @@ struct Kernel {
     static constexpr uint NODE_WIDTH = NodeWidth;
     static constexpr bool STACK_IN_REGISTERS = false;
     static constexpr bool WALKS_ARE_WATCHED = Watched;
+    static constexpr bool BRANCHES_ARE_GUESSED = true;
     static constexpr uint TRAVERSAL_ORDER = Order;
     static constexpr uint FEATURES = FEATURES_ALL & ~(Instances ? 0u : FEATURE_INSTANCES) &
                                      ~(Textures ? 0u : FEATURE_TEXTURES | FEATURE_CUTOUTS);

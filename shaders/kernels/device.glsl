@@ -15,10 +15,12 @@ layout(constant_id = SPEC_STACK_SIZE) const uint STACK_SIZE = 64u;
 layout(constant_id = SPEC_NODE_WIDTH) const uint NODE_WIDTH = 2u;
 layout(constant_id = SPEC_STACK_IN_REGISTERS) const bool STACK_IN_REGISTERS = false;
 const bool WALKS_ARE_WATCHED = true;
+const bool BRANCHES_ARE_GUESSED = false;
 layout(constant_id = SPEC_ORDER) const uint TRAVERSAL_ORDER = ORDER_NEAR_FIRST;
 layout(constant_id = SPEC_EXACT_MATH) const bool EXACT_MATH = false;
 layout(constant_id = SPEC_FEATURES) const uint FEATURES = FEATURES_ALL;
 
+#include "kernels/axes.glsl"
 #include "kernels/four.glsl"
 #include "kernels/uniforms.glsl"
 

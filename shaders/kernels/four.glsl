@@ -33,6 +33,14 @@ uvec4 allBitsWhere(vec4 a, vec4 b) { return mix(uvec4(0u), uvec4(0xffffffffu), l
 
 uvec4 allBitsWhereNone(uvec4 refs) { return mix(uvec4(0u), uvec4(0xffffffffu), equal(refs, uvec4(REF_NONE))); }
 
+uint bitsWhereHighestIsClear(uvec4 v)
+{
+    uvec4 clear = (v >> 31u) ^ 1u;
+    return (clear.x | (clear.y << 1u)) | ((clear.z << 2u) | (clear.w << 3u));
+}
+
+uint lowestBit(uint x) { return uint(findLSB(x)); }
+
 /// All bits in the places after `last`.
 uvec4 allBitsWhereBeyond(uint last)
 {

@@ -10,33 +10,44 @@ CONST float LARGEST_FLOAT = 3.40282347e+38f;
 // What box tests need of a ray.
 struct BoxRay
 {
-    vec3 inverse;  // 1 / direction, clamped so that no axis is infinite
-    vec3 orgLo;    // origin widened for the lower and the upper planes of a box, so that a ray inside a
-    vec3 orgHi;    // box's plane meets the box
+    Axes inverse;  // 1 / direction, clamped so that no axis is infinite
+    Axes orgLo;    // origin widened for the lower and the upper planes of a box, so that a ray inside a
+    Axes orgHi;    // box's plane meets the box
 };
 
-float clampedInverse(float d)
+Axes clampedInverse(Axes d)
 {
-    return absolute(d) < 1e-18f ? (d < 0.0f ? -1e18f : 1e18f) : quotient(1.0f, d);
+    Axes largest = chosenAxes(lessAlongAxes(d, equalAxes(0.0f)), equalAxes(-1e18f), equalAxes(1e18f));
+    return chosenAxes(lessAlongAxes(sizeAlongAxes(d), equalAxes(1e-18f)), largest, inverseAlongAxes(d));
 }
+
+float largestAlong(Axes v) { return max2(max2(alongX(v), alongY(v)), alongZ(v)); }
+
+float smallestAlong(Axes v) { return min2(min2(alongX(v), alongY(v)), alongZ(v)); }
 
 BoxRay makeBoxRay(vec3 org, vec3 dir)
 {
     BoxRay ray;
-    ray.inverse = vec3(clampedInverse(dir.x), clampedInverse(dir.y), clampedInverse(dir.z));
-    vec3 pad = vec3(maxComponent(absolute3(org)) * WIDENING + 1e-20f);
-    ray.orgLo = org + pad;
-    ray.orgHi = org - pad;
+    ray.inverse = clampedInverse(axesOf(dir));
+    Axes at = axesOf(org);
+    Axes pad = equalAxes(largestAlong(sizeAlongAxes(at)) * WIDENING + 1e-20f);
+    ray.orgLo = at + pad;
+    ray.orgHi = at - pad;
     return ray;
 }
 
 /// Tests a box against the part of the ray up to tMax.
 ///   entry  distance at which the ray enters, 0 when it starts inside [m]
+bool intersectAxes(BoxRay ray, Axes lo, Axes hi, float tMax, OUT(float) entry)
+{
+    Axes a = (lo - ray.orgLo) * ray.inverse;
+    Axes b = (hi - ray.orgHi) * ray.inverse;
+    entry = max2(largestAlong(lesserAxes(a, b)), 0.0f);
+    float leave = min2(smallestAlong(greaterAxes(a, b)), tMax);
+    return entry <= leave;
+}
+
 bool intersectBox(BoxRay ray, vec3 lo, vec3 hi, float tMax, OUT(float) entry)
 {
-    vec3 a = (lo - ray.orgLo) * ray.inverse;
-    vec3 b = (hi - ray.orgHi) * ray.inverse;
-    entry = max2(max2(max2(min2(a.x, b.x), min2(a.y, b.y)), min2(a.z, b.z)), 0.0f);
-    float leave = min2(min2(min2(max2(a.x, b.x), max2(a.y, b.y)), max2(a.z, b.z)), tMax);
-    return entry <= leave;
+    return intersectAxes(ray, axesOf(lo), axesOf(hi), tMax, entry);
 }

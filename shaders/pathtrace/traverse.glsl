@@ -32,29 +32,22 @@ Traversal beginTraversal(float tMax)
     return walk;
 }
 
-vec3 lesser3(vec3 a, vec3 b)
-{
-    return vec3(min2(a.x, b.x), min2(a.y, b.y), min2(a.z, b.z));
-}
-
-vec3 greater3(vec3 a, vec3 b)
-{
-    return vec3(max2(a.x, b.x), max2(a.y, b.y), max2(a.z, b.z));
-}
-
 /// Corners of the widened box of a primitive. The host builds the tree from the same boxes.
-void primitiveBox(READ(Primitive) shape, OUT(vec3) lo, OUT(vec3) hi)
+void primitiveBox(READ(Primitive) shape, OUT(Axes) lo, OUT(Axes) hi)
 {
+    Axes p0 = axesOf(shape.p0);
     if (HAS_SPHERES && shape.shape == SHAPE_SPHERE) {
-        lo = shape.p0 - vec3(shape.p1.x);
-        hi = shape.p0 + vec3(shape.p1.x);
+        lo = p0 - equalAxes(shape.p1.x);
+        hi = p0 + equalAxes(shape.p1.x);
     } else {
-        lo = lesser3(lesser3(shape.p0, shape.p1), shape.p2);
-        hi = greater3(greater3(shape.p0, shape.p1), shape.p2);
+        Axes p1 = axesOf(shape.p1);
+        Axes p2 = axesOf(shape.p2);
+        lo = lesserAxes(lesserAxes(p0, p1), p2);
+        hi = greaterAxes(greaterAxes(p0, p1), p2);
     }
-    float size = maxComponent(greater3(absolute3(lo), absolute3(hi)));
-    lo = greater3(lo - vec3(size * WIDENING), vec3(-LARGEST_FLOAT));
-    hi = lesser3(hi + vec3(size * WIDENING), vec3(LARGEST_FLOAT));
+    Axes widening = equalAxes(largestAlong(greaterAxes(sizeAlongAxes(lo), sizeAlongAxes(hi))) * WIDENING);
+    lo = greaterAxes(lo - widening, equalAxes(-LARGEST_FLOAT));
+    hi = lesserAxes(hi + widening, equalAxes(LARGEST_FLOAT));
 }
 
 // The ray in the space of the tree that is being walked: the world, or an instance's object.
@@ -125,11 +118,11 @@ void visitPrimitive(READ(WalkRay) ray, uint slot, INOUT(Traversal) walk)
         if (!intersectTriangle(ray.org, ray.dir, ray.sheared, shape, t, b1, b2)) return;
     }
 
-    vec3 lo;
-    vec3 hi;
+    Axes lo;
+    Axes hi;
     primitiveBox(shape, lo, hi);
     float entry;
-    if (!intersectBox(ray.boxes, lo, hi, walk.tHit, entry)) return;
+    if (!intersectAxes(ray.boxes, lo, hi, walk.tHit, entry)) return;
     t = max2(t, entry);
     uint number = shape.number;
     if (HAS_INSTANCES) {

@@ -21,7 +21,8 @@ ShearedRay shearRay(vec3 org, vec3 dir)
 {
     vec3 size = absolute3(dir);
     ShearedRay ray;
-    ray.kz = size.x > size.y ? (size.x > size.z ? 0u : 2u) : (size.y > size.z ? 1u : 2u);
+    uint k = size.x > size.y ? 0u : 1u;
+    ray.kz = max2(size.y, size.x) > size.z ? k : 2u;
     ray.kx = ray.kz == 2u ? 0u : ray.kz + 1u;
     ray.ky = ray.kx == 2u ? 0u : ray.kx + 1u;
     ray.sz = quotient(1.0f, pickAxis(dir, ray.kz));
@@ -95,7 +96,7 @@ bool intersectTriangle(vec3 org, vec3 dir, ShearedRay ray, READ(Primitive) trian
     float u = cx * by - cy * bx;
     float v = ax * cy - ay * cx;
     float w = bx * ay - by * ax;
-    if ((u < 0.0f || v < 0.0f || w < 0.0f) && (u > 0.0f || v > 0.0f || w > 0.0f)) return false;
+    if (min2(min2(u, v), w) < 0.0f && max2(max2(u, v), w) > 0.0f) return false;
     float det = (u + v) + w;
     if (det == 0.0f) return false;
 

@@ -28,12 +28,13 @@ vec3 gridCounts(uint gridScale)
 BoxRay makeGridRay(BoxRay ray, vec3 gridAt, uint gridScale)
 {
     BoxRay onGrid;
-    onGrid.inverse = ray.inverse * gridSteps(gridScale);
-    vec3 counts = gridCounts(gridScale);
-    vec3 lo = ray.orgLo * counts - gridAt;
-    vec3 hi = ray.orgHi * counts - gridAt;
-    onGrid.orgLo = lo + (absolute3(lo) * 1.1920929e-07f + vec3(1e-30f));  // 2^-23
-    onGrid.orgHi = hi - (absolute3(hi) * 1.1920929e-07f + vec3(1e-30f));
+    onGrid.inverse = ray.inverse * axesOf(gridSteps(gridScale));
+    Axes counts = axesOf(gridCounts(gridScale));
+    Axes at = axesOf(gridAt);
+    Axes lo = ray.orgLo * counts - at;
+    Axes hi = ray.orgHi * counts - at;
+    onGrid.orgLo = lo + (sizeAlongAxes(lo) * 1.1920929e-07f + equalAxes(1e-30f));  // 2^-23
+    onGrid.orgHi = hi - (sizeAlongAxes(hi) * 1.1920929e-07f + equalAxes(1e-30f));
     return onGrid;
 }
 
@@ -44,12 +45,12 @@ BoxRay makeGridRay(BoxRay ray, vec3 gridAt, uint gridScale)
 ///            bits; WIDE_MISS where the box is not met
 FourUints intersectFour(BoxRay ray, FourUints x, FourUints y, FourUints z, FourUints absent, float tMax)
 {
-    Four ax = (floatsOf(x & 0xffffu) - ray.orgLo.x) * ray.inverse.x;
-    Four bx = (floatsOf(x >> 16u) - ray.orgHi.x) * ray.inverse.x;
-    Four ay = (floatsOf(y & 0xffffu) - ray.orgLo.y) * ray.inverse.y;
-    Four by = (floatsOf(y >> 16u) - ray.orgHi.y) * ray.inverse.y;
-    Four az = (floatsOf(z & 0xffffu) - ray.orgLo.z) * ray.inverse.z;
-    Four bz = (floatsOf(z >> 16u) - ray.orgHi.z) * ray.inverse.z;
+    Four ax = (floatsOf(x & 0xffffu) - alongX(ray.orgLo)) * alongX(ray.inverse);
+    Four bx = (floatsOf(x >> 16u) - alongX(ray.orgHi)) * alongX(ray.inverse);
+    Four ay = (floatsOf(y & 0xffffu) - alongY(ray.orgLo)) * alongY(ray.inverse);
+    Four by = (floatsOf(y >> 16u) - alongY(ray.orgHi)) * alongY(ray.inverse);
+    Four az = (floatsOf(z & 0xffffu) - alongZ(ray.orgLo)) * alongZ(ray.inverse);
+    Four bz = (floatsOf(z >> 16u) - alongZ(ray.orgHi)) * alongZ(ray.inverse);
     Four entry = greater4(greater4(lesser4(ax, bx), lesser4(ay, by)), positive4(lesser4(az, bz)));
     Four leave = lesser4(lesser4(greater4(ax, bx), greater4(ay, by)), lesser4(greater4(az, bz), fours(tMax)));
     FourUints number = fourUints(uvec4(0u, 1u, 2u, 3u));
@@ -95,6 +96,12 @@ uint visitWideNode(BoxRay ray, INOUT(Traversal) walk)
                                           : allBitsWhereNone(fourUints(loadWideRefs(walk.ref)));
     FourUints keys = intersectFour(ray, fourUints(loadWideX(walk.ref)), fourUints(loadWideY(walk.ref)),
                                    fourUints(loadWideZ(walk.ref)), absent, walk.tHit);
+    if (BRANCHES_ARE_GUESSED) {
+        // A single child needs no order, and which one it is decides itself sooner than by the network below
+        uint met = bitsWhereHighestIsClear(keys);
+        if (met == 0u) return popRef(walk);
+        if ((met & (met - 1u)) == 0u) return pickByGuess(loadWideRefs(walk.ref), lowestBit(met));
+    }
     // A sorting network of five exchanges
     uint a = lesserUint(keys[0], keys[1]);
     uint b = greaterUint(keys[0], keys[1]);

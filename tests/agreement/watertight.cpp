@@ -229,10 +229,10 @@ TEST(Boxes, ofTheTreeAreThoseOfTheText)
     for (int i = 0; i < 20'000; i++) {
         const float scale = std::ldexp(1.0f, static_cast<int>(random.below(200)) - 95);
         const Primitive shape = anyShape(i % 2 == 0, scale, random);
-        vec3 lo, hi;
+        reference::Axes lo, hi;
         kernel.primitiveBox(shape, lo, hi);
-        EXPECT_EQ(lo, boxOf(shape).lo);
-        EXPECT_EQ(hi, boxOf(shape).hi);
+        EXPECT_EQ(vec3(lo[0], lo[1], lo[2]), boxOf(shape).lo);
+        EXPECT_EQ(vec3(hi[0], hi[1], hi[2]), boxOf(shape).hi);
     }
 }
 
