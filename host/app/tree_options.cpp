@@ -8,7 +8,7 @@ void addTreeOptions(CLI::App& command, CommonOptions& options)
 {
     addChoice(command, "--bvh-build", options.bvhBuild,
               {{"auto", BvhBuild::automatic}, {"sweep", BvhBuild::sweep}, {"binned", BvhBuild::binned}},
-              "auto, sweep (best tree) or binned (fast)")
+              "auto, sweep (good tree) or binned (fast)")
         ->group("Scene");
     auto setQuality = [&options](const std::string& word) {
         const std::vector<std::string> words = {"standard", "high"};

@@ -108,7 +108,10 @@ BareTree buildTree(const TreeItems& items, uint levels, BvhBuild build, unsigned
         boxes.insert(boxes.end(), items.instanceBoxes.begin(), items.instanceBoxes.end());
         Draft draft = build == BvhBuild::sweep ? buildSweep(boxes, levels, threads)
                                                : buildBinned(boxes, levels, threads);
-        if (high) improveByReinsertion(draft, boxes, levels, threads);
+        if (high)
+            improveByReinsertion(draft, boxes, levels, TO_THE_END, threads);
+        else if (build == BvhBuild::sweep)
+            improveByReinsertion(draft, boxes, levels, WHILE_IT_PAYS, threads);
         boxes = std::vector<Box>();  // '= {}' would keep their memory
         tree.bvh = flatten(draft, items, threads);
         tree.order = std::move(draft.order);

@@ -19,7 +19,6 @@ namespace {
 constexpr uint NONE = 0xffffffffu;
 constexpr uint STRIDE = 4;        ///< rounds after which every node has had its turn
 constexpr uint MOST_ROUNDS = 64;
-constexpr double WORTH_IT = 1e-3;  ///< of the cost: less than that in STRIDE rounds ends it
 constexpr uint MOST_VISITS = 1024;  ///< of nodes in search of one move: boxes within boxes can ask for all
 constexpr size_t CHUNK = 1024;
 constexpr uint DEEPEST = 1000;  ///< inner nodes one after another that the recursions below are made for
@@ -288,7 +287,8 @@ private:
 
 }  // namespace
 
-void improveByReinsertion(Draft& draft, std::span<const Box> boxes, uint levels, unsigned threads)
+void improveByReinsertion(Draft& draft, std::span<const Box> boxes, uint levels, ReinsertionEnd end,
+                          unsigned threads)
 {
     if (boxes.size() < 4) return;
     Tree tree = treeOf(draft, boxes);
@@ -297,9 +297,12 @@ void improveByReinsertion(Draft& draft, std::span<const Box> boxes, uint levels,
     for (uint round = 0; round < MOST_ROUNDS; round++) {
         std::vector<Move> moves = findMoves(tree, round % STRIDE, threads);
         makeMoves(tree, moves, touched);
-        if (round % STRIDE != STRIDE - 1) continue;
+        if ((round + 1) % end.rounds != 0) continue;
         const double cost = costOf(tree);
-        if (!(cost < before * (1 - WORTH_IT))) break;
+        if (!(cost < before * (1 - end.gain))) {
+            if (round + 1 == end.rounds) return;  // not worth writing it anew
+            break;
+        }
         before = cost;
     }
     Drafting(tree, draft).write(levels);

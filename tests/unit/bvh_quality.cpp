@@ -2,6 +2,7 @@
 #include "bvh/box.h"
 #include "bvh/bvh.h"
 #include "bvh/reinsert.h"
+#include "bvh/sweep.h"
 #include "support/soups.h"
 
 #include <gtest/gtest.h>
@@ -39,6 +40,13 @@ uint trianglesBelow(const Bvh& bvh, uint ref)
     return trianglesBelow(bvh, bvh.nodes[ref].ref0) + trianglesBelow(bvh, bvh.nodes[ref].ref1);
 }
 
+Bvh treeOf(const Draft& draft, const std::vector<Primitive>& triangles)
+{
+    Bvh bvh = flatten(draft, {triangles, {}, {}}, 1);
+    for (uint number : draft.order) bvh.primitives.push_back(triangles[number]);
+    return bvh;
+}
+
 TEST(BvhQuality, sweep_takesTheBestOfAllSplits)
 {
     for (uint64_t seed = 0; seed < 50; seed++) {
@@ -47,7 +55,9 @@ TEST(BvhQuality, sweep_takesTheBestOfAllSplits)
         for (int axis = 0; axis < 3; axis++)
             for (uint k = 1; k < 12; k++) best = std::min(best, splitCost(triangles, axis, k));
 
-        const Bvh bvh = buildBvh(triangles, BvhBuild::sweep, 1);
+        std::vector<Box> boxes;
+        for (const Primitive& triangle : triangles) boxes.push_back(boxOf(triangle));
+        const Bvh bvh = treeOf(buildSweep(boxes, MAX_STACK_SIZE, 1), triangles);
         ASSERT_FALSE(bvh.nodes.empty());
         const BvhNode& root = bvh.nodes[0];
         const double cost = halfArea({root.lo0, root.hi0}) * trianglesBelow(bvh, root.ref0) +
@@ -158,7 +168,9 @@ TEST(BvhQuality, heuristic_beatsMedianSplitsWhenSizesDiffer)
 TEST(BvhQuality, reinsertion_makesTreesCheaper)
 {
     for (const std::vector<Primitive>& triangles : {randomSoup(5000, 0.2f, 14), testing::torus(100, 40)}) {
-        const double standard = buildBvh(triangles, BvhBuild::sweep, 2).statistics.sahCost;
+        std::vector<Box> boxes;
+        for (const Primitive& triangle : triangles) boxes.push_back(boxOf(triangle));
+        const double standard = treeOf(buildSweep(boxes, MAX_STACK_SIZE, 2), triangles).statistics.sahCost;
         const double high = buildBvh(triangles, BvhBuild::high, 2).statistics.sahCost;
         EXPECT_LT(high, 0.99 * standard);
     }
@@ -186,11 +198,30 @@ TEST(BvhQuality, reinsertion_partsWhatAPoorTreeMixes)
         self(self, right);
     };
     divide(divide, {0, 64, 0, MAX_STACK_SIZE});
-    const double poor = flatten(draft, {triangles, {}, {}}, 2).statistics.sahCost;
-    improveByReinsertion(draft, boxes, MAX_STACK_SIZE, 1);
-    const Bvh better = flatten(draft, {triangles, {}, {}}, 2);
-    EXPECT_LT(better.statistics.sahCost, 0.5 * poor);
-    EXPECT_LT(better.statistics.sahCost, 1.1 * buildBvh(triangles, BvhBuild::sweep, 1).statistics.sahCost);
+    const double poor = treeOf(draft, triangles).statistics.sahCost;
+    Draft early = draft;
+    improveByReinsertion(early, boxes, MAX_STACK_SIZE, WHILE_IT_PAYS, 1);
+    EXPECT_LT(treeOf(early, triangles).statistics.sahCost, 0.5 * poor);
+    improveByReinsertion(draft, boxes, MAX_STACK_SIZE, TO_THE_END, 1);
+    const double better = treeOf(draft, triangles).statistics.sahCost;
+    EXPECT_LT(better, 0.5 * poor);
+    EXPECT_LT(better, 1.1 * buildBvh(triangles, BvhBuild::sweep, 1).statistics.sahCost);
+}
+
+TEST(BvhQuality, reinsertion_leavesATreeThatItCannotMakeBetter)
+{
+    std::vector<Primitive> triangles;  // a row: what lies side by side is together
+    for (uint i = 0; i < 64; i++) {
+        const float x = static_cast<float>(i) * 2;
+        testing::addTriangle(triangles, {x, 0, 0}, {x + 1, 0, 0}, {x, 1, 1});
+    }
+    std::vector<Box> boxes;
+    for (const Primitive& triangle : triangles) boxes.push_back(boxOf(triangle));
+    const Draft draft = buildSweep(boxes, MAX_STACK_SIZE, 1);
+    Draft same = draft;
+    improveByReinsertion(same, boxes, MAX_STACK_SIZE, WHILE_IT_PAYS, 1);
+    EXPECT_EQ(treeOf(same, triangles).statistics.sahCost, treeOf(draft, triangles).statistics.sahCost);
+    EXPECT_EQ(same.order, draft.order);
 }
 
 /// The statistic against its definition, summed here from the finished tree.
