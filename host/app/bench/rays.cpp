@@ -33,17 +33,29 @@ vec3 offSurface(const vec3& point, const vec3& normal)
 
 namespace {
 
+/// Calls visit(x, y) for every pixel of a picture, in blocks of 8 x 8, as invocations of a device that renders pictures lie
+/// side by side.
+template <class Visit>
+void forEachPixel(uint32_t size, Visit visit)
+{
+    constexpr uint32_t BLOCK = 8;
+    for (uint32_t top = 0; top < size; top += BLOCK) {
+        for (uint32_t left = 0; left < size; left += BLOCK) {
+            for (uint32_t y = top; y < std::min(size, top + BLOCK); y++)
+                for (uint32_t x = left; x < std::min(size, left + BLOCK); x++) visit(x, y);
+        }
+    }
+}
+
 std::vector<TraceRay> primaryRays(const Camera& camera, uint32_t size)
 {
     Numbers random(1);
     std::vector<TraceRay> rays;
     rays.reserve(size_t{size} * size);
-    for (uint32_t y = 0; y < size; y++) {
-        for (uint32_t x = 0; x < size; x++) {
-            const float px = float(x) + random.next(), py = float(y) + random.next();
-            rays.push_back(cameraRay(camera, 2 * px / float(size) - 1, 2 * py / float(size) - 1));
-        }
-    }
+    forEachPixel(size, [&](uint32_t x, uint32_t y) {
+        const float px = float(x) + random.next(), py = float(y) + random.next();
+        rays.push_back(cameraRay(camera, 2 * px / float(size) - 1, 2 * py / float(size) - 1));
+    });
     return rays;
 }
 
