@@ -47,7 +47,7 @@ void grow(Flat& parent, const Flat& left, const Flat& right)
     grow(parent.box, left.box);
     grow(parent.box, right.box);
     parent.depth = 1 + std::max(left.depth, right.depth);
-    parent.boxes = 2 * halfArea(parent.box) + left.boxes + right.boxes;
+    parent.boxes = left.boxes + right.boxes + 2 * halfArea(parent.box);  // in the order of saved/tree_assembly.cpp
     parent.primitives = left.primitives + right.primitives;
     parent.leaves = left.leaves + right.leaves;
     parent.largestLeaf = std::max(left.largestLeaf, right.largestLeaf);
