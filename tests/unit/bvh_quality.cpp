@@ -40,6 +40,13 @@ uint trianglesBelow(const Bvh& bvh, uint ref)
     return trianglesBelow(bvh, bvh.nodes[ref].ref0) + trianglesBelow(bvh, bvh.nodes[ref].ref1);
 }
 
+std::vector<Box> boxesOf(const std::vector<Primitive>& triangles)
+{
+    std::vector<Box> boxes;
+    for (const Primitive& triangle : triangles) boxes.push_back(boxOf(triangle));
+    return boxes;
+}
+
 Bvh treeOf(const Draft& draft, const std::vector<Primitive>& triangles)
 {
     Bvh bvh = flatten(draft, {triangles, {}, {}}, 1);
@@ -55,8 +62,7 @@ TEST(BvhQuality, sweep_takesTheBestOfAllSplits)
         for (int axis = 0; axis < 3; axis++)
             for (uint k = 1; k < 12; k++) best = std::min(best, splitCost(triangles, axis, k));
 
-        std::vector<Box> boxes;
-        for (const Primitive& triangle : triangles) boxes.push_back(boxOf(triangle));
+        const std::vector<Box> boxes = boxesOf(triangles);
         const Bvh bvh = treeOf(buildSweep(boxes, MAX_STACK_SIZE, 1), triangles);
         ASSERT_FALSE(bvh.nodes.empty());
         const BvhNode& root = bvh.nodes[0];
@@ -168,8 +174,7 @@ TEST(BvhQuality, heuristic_beatsMedianSplitsWhenSizesDiffer)
 TEST(BvhQuality, reinsertion_makesTreesCheaper)
 {
     for (const std::vector<Primitive>& triangles : {randomSoup(5000, 0.2f, 14), testing::torus(100, 40)}) {
-        std::vector<Box> boxes;
-        for (const Primitive& triangle : triangles) boxes.push_back(boxOf(triangle));
+        const std::vector<Box> boxes = boxesOf(triangles);
         const double standard = treeOf(buildSweep(boxes, MAX_STACK_SIZE, 2), triangles).statistics.sahCost;
         const double high = buildBvh(triangles, BvhBuild::high, 2).statistics.sahCost;
         EXPECT_LT(high, 0.99 * standard);
@@ -184,8 +189,7 @@ TEST(BvhQuality, reinsertion_partsWhatAPoorTreeMixes)
         const float x = static_cast<float>(i % 2) * 100 + static_cast<float>(i) * 0.1f;
         testing::addTriangle(triangles, {x, 0, 0}, {x + 0.1f, 0, 0}, {x, 0.1f, 0.1f});
     }
-    std::vector<Box> boxes;
-    for (const Primitive& triangle : triangles) boxes.push_back(boxOf(triangle));
+    const std::vector<Box> boxes = boxesOf(triangles);
     Draft draft;  // leaves of 8 in the order of numbers, whatever their place
     draft.nodes.resize(2 * 64 - 1);
     for (uint i = 0; i < 64; i++) draft.order.push_back(i);
@@ -210,13 +214,8 @@ TEST(BvhQuality, reinsertion_partsWhatAPoorTreeMixes)
 
 TEST(BvhQuality, reinsertion_leavesATreeThatItCannotMakeBetter)
 {
-    std::vector<Primitive> triangles;  // a row: what lies side by side is together
-    for (uint i = 0; i < 64; i++) {
-        const float x = static_cast<float>(i) * 2;
-        testing::addTriangle(triangles, {x, 0, 0}, {x + 1, 0, 0}, {x, 1, 1});
-    }
-    std::vector<Box> boxes;
-    for (const Primitive& triangle : triangles) boxes.push_back(boxOf(triangle));
+    const std::vector<Primitive> triangles = testing::torus(100, 40);
+    const std::vector<Box> boxes = boxesOf(triangles);
     const Draft draft = buildSweep(boxes, MAX_STACK_SIZE, 1);
     Draft same = draft;
     improveByReinsertion(same, boxes, MAX_STACK_SIZE, WHILE_IT_PAYS, 1);
