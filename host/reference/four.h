@@ -26,19 +26,6 @@ inline uint pick(const uvec4& v, uint i)
     return (&v.x)[i];
 }
 
-/// The component of v along an axis: where v lies in memory, one read.
-inline float pickAxis(const vec3& v, uint axis)
-{
-    return (&v.x)[axis];
-}
-
-/// The component of a - b along an axis: two reads, the second of which the caller has made.
-///   bAlong  pickAxis(b, axis)
-inline float pickDifference(const vec3& a, const vec3&, uint axis, float bAlong)
-{
-    return pickAxis(a, axis) - bAlong;
-}
-
 /// As pick(), by branches: the processor guesses which, and reads the next node before it is known.
 /// The empty statements keep the compiler from making one selection of them.
 inline uint pickByGuess(const uvec4& v, uint i)
@@ -102,14 +89,19 @@ inline FourUints allBitsWhereNone(FourUints refs)
     return (FourUints)(refs == REF_NONE);
 }
 
-/// A bit for each place, the first lowest: whether the highest bit is clear there.
-inline uint bitsWhereHighestIsClear(FourUints v)
+/// A bit for each place, the first lowest: whether the highest bit is set there.
+inline uint bitsWhereHighestIsSet(FourUints v)
 {
 #ifdef __SSE__
-    return static_cast<uint>(__builtin_ia32_movmskps((Four)v)) ^ 15u;
+    return static_cast<uint>(__builtin_ia32_movmskps((Four)v));
 #else
-    return ((v[0] >> 31) | (v[1] >> 31) << 1 | (v[2] >> 31) << 2 | (v[3] >> 31) << 3) ^ 15u;
+    return (v[0] >> 31) | (v[1] >> 31) << 1 | (v[2] >> 31) << 2 | (v[3] >> 31) << 3;
 #endif
+}
+
+inline uint bitsWhereHighestIsClear(FourUints v)
+{
+    return bitsWhereHighestIsSet(v) ^ 15u;
 }
 
 /// The place of the lowest bit that is set; there must be one.

@@ -7,11 +7,6 @@ uvec4 fourUints(uvec4 v) { return v; }
 
 uint pick(uvec4 v, uint i) { return v[i]; }
 
-float pickAxis(vec3 v, uint axis) { return axis == 0u ? v.x : (axis == 1u ? v.y : v.z); }
-
-// Subtracts first: picking from what was just read takes SwiftShader's compiler minutes.
-float pickDifference(vec3 a, vec3 b, uint axis, float bAlong) { return pickAxis(a - b, axis); }
-
 uint pickByGuess(uvec4 v, uint i) { return v[i]; }
 
 vec4 fours(float x) { return vec4(x); }

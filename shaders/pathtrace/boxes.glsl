@@ -21,6 +21,14 @@ Axes clampedInverse(Axes d)
     return chosenAxes(lessAlongAxes(sizeAlongAxes(d), equalAxes(1e-18f)), largest, inverseAlongAxes(d));
 }
 
+float dotAxes(Axes a, Axes b)
+{
+    Axes products = a * b;
+    return (alongX(products) + alongY(products)) + alongZ(products);
+}
+
+Axes crossAxes(Axes a, Axes b) { return yzx(a) * zxy(b) - zxy(a) * yzx(b); }
+
 float largestAlong(Axes v) { return max2(max2(alongX(v), alongY(v)), alongZ(v)); }
 
 float smallestAlong(Axes v) { return min2(min2(alongX(v), alongY(v)), alongZ(v)); }

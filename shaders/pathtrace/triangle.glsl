@@ -40,32 +40,34 @@ ShearedRay shearRay(vec3 org, vec3 dir)
 /// about one rounding of the farthest corner's distance, divided by the cosine between ray and normal.
 float planeDistance(vec3 org, vec3 dir, READ(Primitive) triangle)
 {
-    vec3 e0 = triangle.p1 - triangle.p0;
-    vec3 e1 = triangle.p2 - triangle.p1;
-    vec3 e2 = triangle.p0 - triangle.p2;
-    float size0 = dot3(e0, e0);
-    float size1 = dot3(e1, e1);
-    float size2 = dot3(e2, e2);
-    bool longest0 = size0 > size1 && size0 > size2;
-    bool longest1 = !longest0 && size1 > size2;
-    vec3 a = longest0 ? e1 : (longest1 ? e2 : e0);
-    vec3 b = longest0 ? e2 : (longest1 ? e0 : e1);
-    vec3 n = cross3(a, b);
-    vec3 toPlane = (longest0 ? triangle.p2 : (longest1 ? triangle.p0 : triangle.p1)) - org;
-    float slope = flushed(dot3(n, dir));
+    Axes p0 = axesOf(triangle.p0);
+    Axes p1 = axesOf(triangle.p1);
+    Axes p2 = axesOf(triangle.p2);
+    Axes e0 = p1 - p0;
+    Axes e1 = p2 - p1;
+    Axes e2 = p0 - p2;
+    float size0 = dotAxes(e0, e0);
+    float size1 = dotAxes(e1, e1);
+    float size2 = dotAxes(e2, e2);
+    AxesMask longest0 = lessAlongAxes(equalAxes(max2(size1, size2)), equalAxes(size0));
+    AxesMask longest1 = lessAlongAxes(equalAxes(size2), equalAxes(size1));
+    Axes a = chosenAxes(longest0, e1, chosenAxes(longest1, e2, e0));
+    Axes b = chosenAxes(longest0, e2, chosenAxes(longest1, e0, e1));
+    Axes n = crossAxes(a, b);
+    Axes toPlane = chosenAxes(longest0, p2, chosenAxes(longest1, p0, p1)) - axesOf(org);
+    float slope = flushed(dotAxes(n, axesOf(dir)));
     if (slope == 0.0f) return -1.0f;
     float inverseSlope = quotient(1.0f, slope);
-    float t = dot3(n, toPlane) * inverseSlope;
+    float t = dotAxes(n, toPlane) * inverseSlope;
 
     // A bound on the rounding error of t, so that a hit behind the origin is never taken for one in
     // front: edges are within 1 rounding (2^-24) of their size, n within 4 of the products below, the
     // numerator of t within 8 and the slope within 7 of theirs, t itself 2 more. 10 cover all that.
-    vec3 sizeA = absolute3(a);
-    vec3 sizeB = absolute3(b);
-    vec3 products = vec3(sizeA.y * sizeB.z + sizeA.z * sizeB.y, sizeA.z * sizeB.x + sizeA.x * sizeB.z,
-                         sizeA.x * sizeB.y + sizeA.y * sizeB.x);
-    float above = dot3(products, absolute3(toPlane));
-    float below = dot3(products, absolute3(dir));
+    Axes sizeA = sizeAlongAxes(a);
+    Axes sizeB = sizeAlongAxes(b);
+    Axes products = yzx(sizeA) * zxy(sizeB) + zxy(sizeA) * yzx(sizeB);
+    float above = dotAxes(products, sizeAlongAxes(toPlane));
+    float below = dotAxes(products, sizeAlongAxes(axesOf(dir)));
     float error = 6e-7f * (above + absolute(t) * below) * absolute(inverseSlope);
     return t > error ? t : -1.0f;
 }
@@ -81,22 +83,17 @@ bool intersectTriangle(vec3 org, vec3 dir, ShearedRay ray, READ(Primitive) trian
     b1 = 0.0f;
     b2 = 0.0f;
 
-    // Corners relative to the origin, sheared
-    float az = pickDifference(triangle.p0, org, ray.kz, ray.oz);
-    float bz = pickDifference(triangle.p1, org, ray.kz, ray.oz);
-    float cz = pickDifference(triangle.p2, org, ray.kz, ray.oz);
-    float ax = pickDifference(triangle.p0, org, ray.kx, ray.ox) - ray.sx * az;
-    float ay = pickDifference(triangle.p0, org, ray.ky, ray.oy) - ray.sy * az;
-    float bx = pickDifference(triangle.p1, org, ray.kx, ray.ox) - ray.sx * bz;
-    float by = pickDifference(triangle.p1, org, ray.ky, ray.oy) - ray.sy * bz;
-    float cx = pickDifference(triangle.p2, org, ray.kx, ray.ox) - ray.sx * cz;
-    float cy = pickDifference(triangle.p2, org, ray.ky, ray.oy) - ray.sy * cz;
+    // Corners relative to the origin, sheared: of each its place along one axis
+    Axes z = cornersAlong(triangle, org, ray.kz, ray.oz);
+    Axes x = cornersAlong(triangle, org, ray.kx, ray.ox) - equalAxes(ray.sx) * z;
+    Axes y = cornersAlong(triangle, org, ray.ky, ray.oy) - equalAxes(ray.sy) * z;
 
     // Edge functions: neighbours compute the same products for a shared edge, so no ray slips through
-    float u = cx * by - cy * bx;
-    float v = ax * cy - ay * cx;
-    float w = bx * ay - by * ax;
-    if (min2(min2(u, v), w) < 0.0f && max2(max2(u, v), w) > 0.0f) return false;
+    Axes edges = zxy(x) * yzx(y) - zxy(y) * yzx(x);
+    if (onBothSidesOfZero(edges)) return false;
+    float u = alongX(edges);
+    float v = alongY(edges);
+    float w = alongZ(edges);
     float det = (u + v) + w;
     if (det == 0.0f) return false;
 
