@@ -1,7 +1,7 @@
 // How materials scatter light: eval, sample and pdf.
 
 /// Share of a material that is diffuse.
-float diffuseShare(Material material)
+float diffuseShare(READ(Material) material)
 {
     if (material.type == MATERIAL_LAMBERT) return 1.0f;
     if (material.type == MATERIAL_PLASTIC) return 1.0f;
@@ -12,7 +12,7 @@ float diffuseShare(Material material)
 }
 
 /// Whether all lobes of a material are delta lobes: no light sample can count there.
-bool isSpecular(Material material)
+bool isSpecular(READ(Material) material)
 {
     uint type = material.type;
     if (HAS_GLOSSY) type = typeActedAs(material);
@@ -21,7 +21,7 @@ bool isSpecular(Material material)
 }
 
 /// Whether a material has lobes for light from behind it, other than delta lobes.
-bool scattersThrough(Material material)
+bool scattersThrough(READ(Material) material)
 {
     if (material.type == MATERIAL_METALLIC_ROUGHNESS) return material.transmission > 0.0f;
     return material.type == MATERIAL_ROUGH_DIELECTRIC;
@@ -30,7 +30,7 @@ bool scattersThrough(Material material)
 /// All lobes but delta lobes, as mirror directions have no finite value. Lambert reflects light that
 /// arrives on the viewer's side of the geometric surface.
 ///   wo, wi  unit directions to the viewer and to the light
-BsdfValue evalBsdf(Material material, SurfaceInteraction isect, vec3 wo, vec3 wi)
+BsdfValue evalBsdf(READ(Material) material, READ(SurfaceInteraction) isect, vec3 wo, vec3 wi)
 {
     if (HAS_GLOSSY && material.type >= MATERIAL_ROUGH_CONDUCTOR) return evalGlossy(material, isect, wo, wi);
     BsdfValue value = noBsdf();
@@ -47,13 +47,13 @@ BsdfValue evalBsdf(Material material, SurfaceInteraction isect, vec3 wo, vec3 wi
 
 /// BSDF times the cosine of wi with the shading normal [1/sr]. Who needs both this and the density asks
 /// evalBsdf.
-vec3 evalBsdfCos(Material material, SurfaceInteraction isect, vec3 wo, vec3 wi)
+vec3 evalBsdfCos(READ(Material) material, READ(SurfaceInteraction) isect, vec3 wo, vec3 wi)
 {
     return evalBsdf(material, isect, wo, wi).f;
 }
 
 /// Density with which sampleBsdf takes wi [1/sr], the choice of a lobe included.
-float pdfBsdf(Material material, SurfaceInteraction isect, vec3 wo, vec3 wi)
+float pdfBsdf(READ(Material) material, READ(SurfaceInteraction) isect, vec3 wo, vec3 wi)
 {
     return evalBsdf(material, isect, wo, wi).pdf;
 }
@@ -62,7 +62,7 @@ float pdfBsdf(Material material, SurfaceInteraction isect, vec3 wo, vec3 wi)
 ///   dir        unit direction of the ray that arrived
 ///   mediumEta  index of refraction where it came from, by the report's rule
 ///   u          uniform in [0,1)^4; u.z is left for the choice of a light
-BsdfSample sampleBsdf(Material material, SurfaceInteraction isect, vec3 dir, float mediumEta, vec4 u)
+BsdfSample sampleBsdf(READ(Material) material, READ(SurfaceInteraction) isect, vec3 dir, float mediumEta, vec4 u)
 {
     BsdfSample bs;
     bs.wi = vec3(0.0f);

@@ -9,7 +9,7 @@ float squareOfBlock(float sumY, uint n) { return flushed(sumY * quotient(sumY, f
 
 /// Adds the path's radiance to the block, in sample order, and returns what was added. A sample that is
 /// negative or not finite counts as black and is counted.
-vec3 addSample(PathState path, INOUT(PixelBlock) block)
+vec3 addSample(READ(PathState) path, INOUT(PixelBlock) block)
 {
     vec3 L = flushed3(path.L);
     float y = luminance(L);

@@ -15,7 +15,7 @@ FirstHits noFirstHits()
 }
 
 /// Share of light that a material returns, roughly, as a colour in [0,1]: what denoisers expect.
-vec3 albedoOf(Material material)
+vec3 albedoOf(READ(Material) material)
 {
     if (material.type == MATERIAL_CONDUCTOR || material.type == MATERIAL_ROUGH_CONDUCTOR) {
         return conductorReflectance(material, 1.0f);
@@ -33,12 +33,13 @@ void advanceFirstHit(INOUT(PathState) path, INOUT(Traversal) walk)
 }
 
 /// Adds what a camera ray met. `isFirst`: it is the pixel's first sample.
-void addFirstHit(PathState path, Traversal hit, bool isFirst, INOUT(FirstHits) sums)
+void addFirstHit(READ(PathState) path, READ(Traversal) hit, bool isFirst, INOUT(FirstHits) sums)
 {
     if (hit.slot == NO_HIT) return;
     SurfaceInteraction isect = interactionAt(hit, path.org, path.dir);
-    Material material = texturedMaterial(loadMaterial(isect.material), isect.u, isect.v);
-    isect = bumpedInteraction(material, hit, isect);
+    Material material = loadMaterial(isect.material);
+    textureMaterial(isect.u, isect.v, material);
+    bumpInteraction(material, hit, isect);
     if (isFirst) {
         sums.number = hit.number;
         sums.material = isect.material;

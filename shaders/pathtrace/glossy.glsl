@@ -7,13 +7,13 @@
 // Sides whose indices differ by less refract so little that a lobe cannot be told from a straight line.
 CONST float MIN_REFRACTION = 1e-3f;
 
-bool isCoated(Material material)
+bool isCoated(READ(Material) material)
 {
     return material.type == MATERIAL_PLASTIC || material.type == MATERIAL_METALLIC_ROUGHNESS;
 }
 
 /// MATERIAL_CONDUCTOR and MATERIAL_DIELECTRIC also for what is too smooth to be otherwise.
-uint typeActedAs(Material material)
+uint typeActedAs(READ(Material) material)
 {
     bool straight = absolute(material.eta - 1.0f) < MIN_REFRACTION;
     if (material.type == MATERIAL_ROUGH_CONDUCTOR && isSmooth(material)) return MATERIAL_CONDUCTOR;
@@ -24,13 +24,13 @@ uint typeActedAs(Material material)
 }
 
 /// Light that the coat of plastic or of metallic-roughness reflects.
-float coatOf(Material material, float cosine)
+float coatOf(READ(Material) material, float cosine)
 {
     return material.type == MATERIAL_PLASTIC ? plasticCoat(material, cosine)
                                              : schlickCoat(material, cosine);
 }
 
-LobeChances coatedChances(Material material, float cosO, float coatO)
+LobeChances coatedChances(READ(Material) material, float cosO, float coatO)
 {
     if (material.type == MATERIAL_PLASTIC) return plasticChances(material, coatO);
     return metallicChances(material, cosO, coatO);
@@ -38,7 +38,7 @@ LobeChances coatedChances(Material material, float cosO, float coatO)
 
 /// Reflectance of a coat's microfacet.
 ///   fresnel  that of a dielectric
-vec3 coatedFresnel(Material material, float cosM, float fresnel)
+vec3 coatedFresnel(READ(Material) material, float cosM, float fresnel)
 {
     return material.type == MATERIAL_PLASTIC ? vec3(fresnel) : metallicFresnel(material, cosM);
 }
@@ -46,7 +46,7 @@ vec3 coatedFresnel(Material material, float cosM, float fresnel)
 /// All lobes of a coated material but those of a smooth coat.
 ///   r        microfacets between wo and wi, a wi below the surface mirrored to above it
 ///   fresnel  their reflectance, if they are those of a dielectric
-BsdfValue evalCoated(Material material, float cosO, float cosI, Microfacets r, float fresnel)
+BsdfValue evalCoated(READ(Material) material, float cosO, float cosI, READ(Microfacets) r, float fresnel)
 {
     BsdfValue value = noBsdf();
     float coatO = coatOf(material, cosO);
@@ -67,7 +67,7 @@ BsdfValue evalCoated(Material material, float cosO, float cosI, Microfacets r, f
 
 /// What microfacets of glass do: reflect, or refract and compress radiance into a smaller solid angle in
 /// the denser medium, by 1 / eta^2.
-BsdfValue evalGlass(Material material, float eta, bool below, Microfacets r, float fresnel)
+BsdfValue evalGlass(READ(Material) material, float eta, bool below, READ(Microfacets) r, float fresnel)
 {
     BsdfValue value;
     value.pdf = (below ? 1.0f - fresnel : fresnel) * r.pdf;
@@ -77,7 +77,7 @@ BsdfValue evalGlass(Material material, float eta, bool below, Microfacets r, flo
 }
 
 /// All lobes that have a density.
-BsdfValue evalGlossy(Material material, SurfaceInteraction isect, vec3 wo, vec3 wi)
+BsdfValue evalGlossy(READ(Material) material, READ(SurfaceInteraction) isect, vec3 wo, vec3 wi)
 {
     BsdfValue value = noBsdf();
     vec3 n = mirrorNormal(isect, -wo);
@@ -116,7 +116,7 @@ float paneReflectance(float fresnel) { return quotient(2.0f * fresnel, 1.0f + fr
 
 /// Samples a material of which typeActedAs is MATERIAL_ROUGH_CONDUCTOR or beyond.
 ///   dir  unit direction of the ray that arrived
-void sampleGlossy(Material material, SurfaceInteraction isect, vec3 dir, vec4 u, INOUT(BsdfSample) bs)
+void sampleGlossy(READ(Material) material, READ(SurfaceInteraction) isect, vec3 dir, vec4 u, INOUT(BsdfSample) bs)
 {
     vec3 n = mirrorNormal(isect, dir);
     vec3 wo = -dir;

@@ -15,7 +15,7 @@ struct SurfaceInteraction
 
 /// Unit normal of the triangle's front, computed at a scale at which nothing under- or overflows.
 /// `otherwise` for a triangle without area.
-vec3 triangleNormal(Primitive triangle, vec3 otherwise)
+vec3 triangleNormal(READ(Primitive) triangle, vec3 otherwise)
 {
     vec3 e1 = triangle.p1 - triangle.p0;
     vec3 e2 = triangle.p2 - triangle.p0;
@@ -44,7 +44,7 @@ void completeInteraction(vec3 front, vec3 dir, vec3 sizes, INOUT(SurfaceInteract
     isect.pError = 1e-6f * maxComponent(sizes) * ((slant.x + slant.y) + slant.z);
 }
 
-void triangleInteraction(Primitive triangle, Traversal hit, vec3 dir, INOUT(SurfaceInteraction) isect)
+void triangleInteraction(READ(Primitive) triangle, READ(Traversal) hit, vec3 dir, INOUT(SurfaceInteraction) isect)
 {
     float b0 = (1.0f - hit.b1) - hit.b2;
     vec3 q0 = triangle.p0 * b0;
@@ -56,7 +56,7 @@ void triangleInteraction(Primitive triangle, Traversal hit, vec3 dir, INOUT(Surf
 }
 
 /// Replaces the shading normal by that between the corners' normals.
-void interpolateNormal(TriangleCorners normals, Traversal hit, INOUT(SurfaceInteraction) isect)
+void interpolateNormal(READ(TriangleCorners) normals, READ(Traversal) hit, INOUT(SurfaceInteraction) isect)
 {
     float b0 = (1.0f - hit.b1) - hit.b2;
     vec3 ns = (normals.n0 * b0 + normals.n1 * hit.b1) + normals.n2 * hit.b2;
@@ -68,7 +68,7 @@ void interpolateNormal(TriangleCorners normals, Traversal hit, INOUT(SurfaceInte
     }
 }
 
-void sphereInteraction(Primitive sphere, Traversal hit, vec3 org, vec3 dir,
+void sphereInteraction(READ(Primitive) sphere, READ(Traversal) hit, vec3 org, vec3 dir,
                        INOUT(SurfaceInteraction) isect)
 {
     // The point along the ray is off by the distance's rounding; its direction from the centre is not.
@@ -84,7 +84,7 @@ void sphereInteraction(Primitive sphere, Traversal hit, vec3 org, vec3 dir,
 }
 
 /// Takes an interaction with an instance's object to the world, but for its shading normal.
-void placeInteraction(ObjectInstance instance, INOUT(SurfaceInteraction) isect)
+void placeInteraction(READ(ObjectInstance) instance, INOUT(SurfaceInteraction) isect)
 {
     vec3 inside = isect.ng;
     vec3 normal = normalToWorld(instance, inside);
@@ -112,7 +112,7 @@ void placeInteraction(ObjectInstance instance, INOUT(SurfaceInteraction) isect)
 
 /// Normals at the corners of an instance's triangle: those that the triangle itself would have, were it
 /// moved to the world. (Interpolated before it is moved, a normal would lean elsewhere.) None stay none.
-TriangleCorners placeNormals(ObjectInstance instance, TriangleCorners normals)
+TriangleCorners placeNormals(READ(ObjectInstance) instance, READ(TriangleCorners) normals)
 {
     TriangleCorners placed = normals;
     if (HAS_TEXTURES && !(dot3(normals.n0, normals.n0) > 0.0f)) return placed;
@@ -123,7 +123,7 @@ TriangleCorners placeNormals(ObjectInstance instance, TriangleCorners normals)
 }
 
 /// The interaction with a primitive by its geometry alone, in the space where it is stored.
-SurfaceInteraction geometryAt(Primitive shape, Traversal hit, vec3 org, vec3 dir)
+SurfaceInteraction geometryAt(READ(Primitive) shape, READ(Traversal) hit, vec3 org, vec3 dir)
 {
     SurfaceInteraction isect;
     isect.material = shape.material;
@@ -138,14 +138,14 @@ SurfaceInteraction geometryAt(Primitive shape, Traversal hit, vec3 org, vec3 dir
 }
 
 /// Whether there is something in a triangle's corners that counts.
-bool hasCorners(Primitive shape)
+bool hasCorners(READ(Primitive) shape)
 {
     bool facets = (frame.shading & SHADING_FLAT) != 0u;
     return shape.shape != SHAPE_SPHERE && shape.shape != SHAPE_FLAT && (HAS_TEXTURES || !facets);
 }
 
 /// What lies between the corners: the normal, and texture coordinates.
-void interpolateCorners(TriangleCorners corners, Traversal hit, INOUT(SurfaceInteraction) isect)
+void interpolateCorners(READ(TriangleCorners) corners, READ(Traversal) hit, INOUT(SurfaceInteraction) isect)
 {
     if (HAS_TEXTURES) {
         vec2 uv = cornersUv(corners, hit.b1, hit.b2);
@@ -156,7 +156,7 @@ void interpolateCorners(TriangleCorners corners, Traversal hit, INOUT(SurfaceInt
     interpolateNormal(corners, hit, isect);
 }
 
-SurfaceInteraction interactionInInstance(Primitive shape, Traversal hit, vec3 org, vec3 dir)
+SurfaceInteraction interactionInInstance(READ(Primitive) shape, READ(Traversal) hit, vec3 org, vec3 dir)
 {
     ObjectInstance instance = loadInstance(hit.instance);
     SurfaceInteraction isect = geometryAt(shape, hit, pointToObject(instance, org),
@@ -169,7 +169,7 @@ SurfaceInteraction interactionInInstance(Primitive shape, Traversal hit, vec3 or
 }
 
 /// The interaction for the closest hit of a ray.
-SurfaceInteraction interactionAt(Traversal hit, vec3 org, vec3 dir)
+SurfaceInteraction interactionAt(READ(Traversal) hit, vec3 org, vec3 dir)
 {
     Primitive shape = loadPrimitive(hit.slot);
     if (HAS_INSTANCES && hit.instance != NO_INSTANCE) {
@@ -181,13 +181,13 @@ SurfaceInteraction interactionAt(Traversal hit, vec3 org, vec3 dir)
 }
 
 /// The normal for mirror directions: the shading normal, where it faces the ray as it should.
-vec3 mirrorNormal(SurfaceInteraction isect, vec3 dir)
+vec3 mirrorNormal(READ(SurfaceInteraction) isect, vec3 dir)
 {
     return dot3(isect.ns, dir) < 0.0f ? isect.ns : isect.ng;
 }
 
 /// Where a ray that leaves in direction wi must start so that it cannot hit its own surface.
-vec3 offsetOrigin(SurfaceInteraction isect, vec3 wi)
+vec3 offsetOrigin(READ(SurfaceInteraction) isect, vec3 wi)
 {
     float side = dot3(wi, isect.ng) < 0.0f ? -isect.pError : isect.pError;
     return isect.p + isect.ng * side;

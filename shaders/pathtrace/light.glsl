@@ -21,7 +21,7 @@ LightSample noLight()
 
 /// Share of a spot light's intensity that goes in a direction whose cosine with its axis is given: a
 /// smooth step between the outer and the inner angle's cosine.
-float spotFalloff(Light light, float cosine)
+float spotFalloff(READ(Light) light, float cosine)
 {
     if (!(cosine > light.cosOuter)) return 0.0f;
     if (cosine >= light.cosInner) return 1.0f;
@@ -30,7 +30,7 @@ float spotFalloff(Light light, float cosine)
 }
 
 /// What a light gives to a point, with a density of 1.
-LightSample illuminate(Light light, vec3 p)
+LightSample illuminate(READ(Light) light, vec3 p)
 {
     LightSample ls = noLight();
     if (light.type == LIGHT_DIRECTIONAL) {
@@ -63,7 +63,7 @@ LightSample withRadiance(vec3 wi, float distance, vec3 radiance, float pdf)
 
 /// A point on a shape that shines.
 ///   chance  of the alias table
-LightSample sampleShapeLight(float chance, Light light, SurfaceInteraction isect, float u1, float u2)
+LightSample sampleShapeLight(float chance, READ(Light) light, READ(SurfaceInteraction) isect, float u1, float u2)
 {
     Primitive shape = loadPrimitive(light.slot);
     uint ofInstance = NO_MATERIAL;
@@ -92,7 +92,7 @@ LightSample sampleProbeLight(float chance, uint bits, uint finer, float u1, floa
 
 /// Samples a direction to what was chosen.
 ///   bits  uniform: which light of the alias table or texel of the probe, and where on it
-LightSample sampleLight(SurfaceInteraction isect, LightChoice choice, uvec4 bits)
+LightSample sampleLight(READ(SurfaceInteraction) isect, READ(LightChoice) choice, uvec4 bits)
 {
     if (choice.light == TAKE_NOTHING) return noLight();
     float u1 = unitFloat(bits.y);
@@ -143,7 +143,7 @@ float weightOfScattering(float pdfScattering, float pdfLight)
 }
 
 /// Aims the path's shadow ray from a surface at a light.
-void aimShadowRay(SurfaceInteraction isect, LightSample ls, INOUT(PathState) path)
+void aimShadowRay(READ(SurfaceInteraction) isect, READ(LightSample) ls, INOUT(PathState) path)
 {
     path.shadowOrg = offsetOrigin(isect, ls.wi);
     path.shadowDir = ls.wi;

@@ -20,7 +20,7 @@ float boundedEstimate(float x) { return min2(flushed(x), 1e25f); }
 
 /// Irradiance by a point, spot or directional light [W m^-2]: luminance.
 ///   through  light from behind the surface counts
-float arrivingFromLight(Light light, SurfaceInteraction isect, bool through)
+float arrivingFromLight(READ(Light) light, READ(SurfaceInteraction) isect, bool through)
 {
     LightSample ls = illuminate(light, isect.p);
     float cosine = 1.0f;
@@ -29,7 +29,7 @@ float arrivingFromLight(Light light, SurfaceInteraction isect, bool through)
 }
 
 /// About the irradiance by the lights of a cluster [W m^-2]: luminance.
-float arrivingFromCluster(Light cluster, SurfaceInteraction isect, bool through)
+float arrivingFromCluster(READ(Light) cluster, READ(SurfaceInteraction) isect, bool through)
 {
     vec3 way = cluster.position - isect.p;
     float d2 = max2(dot3(way, way) + cluster.cosOuter, 1e-20f);
@@ -43,7 +43,7 @@ float arrivingFromCluster(Light cluster, SurfaceInteraction isect, bool through)
     return cluster.intensity.x * (cosine * (perDistance * perDistance)) + cluster.cosInner;
 }
 
-float arrivingFromTable(SurfaceInteraction isect, bool through)
+float arrivingFromTable(READ(SurfaceInteraction) isect, bool through)
 {
     float sum = 0.0f;
     uint first = frame.singleCount + frame.choiceCount;
@@ -54,7 +54,7 @@ float arrivingFromTable(SurfaceInteraction isect, bool through)
 }
 
 /// Irradiance by the probe, as far as its luminance is linear in the direction [W m^-2].
-float arrivingFromProbe(SurfaceInteraction isect, bool through)
+float arrivingFromProbe(READ(SurfaceInteraction) isect, bool through)
 {
     float even = 3.14159274f * frame.probeMean;
     if (through) return boundedEstimate(even);
@@ -84,7 +84,7 @@ float endOfShare(float sum, float perSum, float all, bool isLast)
 ///   least   that every estimate is raised by
 ///   count   lights of which something would arrive, at least 1
 ///   all     where their shares end
-void chooseSingleLight(SurfaceInteraction isect, bool through, float place, float begin, float sum,
+void chooseSingleLight(READ(SurfaceInteraction) isect, bool through, float place, float begin, float sum,
                        float least, float perSum, float all, uint count, INOUT(LightChoice) choice)
 {
     for (uint i = 0u; i < frame.singleCount; i++) {
@@ -106,7 +106,7 @@ void chooseSingleLight(SurfaceInteraction isect, bool through, float place, floa
 ///   through  light from behind the surface counts
 ///   carried  largest component of the path's throughput
 ///   u        uniform in [0,1), a multiple of 2^-24. So are the chances, which therefore are exact
-LightChoice chooseLight(SurfaceInteraction isect, bool through, float carried, float u)
+LightChoice chooseLight(READ(SurfaceInteraction) isect, bool through, float carried, float u)
 {
     float all = placesOfAll(carried);
     float place = u * 16777216.0f;

@@ -35,25 +35,25 @@ BsdfValue noBsdf()
 bool isDeltaLobe(uint lobe) { return lobe == LOBE_REFLECT || lobe == LOBE_TRANSMIT; }
 
 /// Whether light from wi is on the side of the geometric surface that wo is on.
-bool onViewersSide(SurfaceInteraction isect, vec3 wo, vec3 wi)
+bool onViewersSide(READ(SurfaceInteraction) isect, vec3 wo, vec3 wi)
 {
     return dot3(wo, isect.ng) >= 0.0f && dot3(wi, isect.ng) > 0.0f;
 }
 
 /// Whether a reflected direction leaves on the viewer's side, by the geometric normal and by n, which an
 /// interpolated normal may tell apart.
-bool staysAbove(SurfaceInteraction isect, vec3 n, vec3 wi)
+bool staysAbove(READ(SurfaceInteraction) isect, vec3 n, vec3 wi)
 {
     return dot3(wi, n) > 0.0f && dot3(wi, isect.ng) > 0.0f;
 }
 
-bool goesBelow(SurfaceInteraction isect, vec3 n, vec3 wi)
+bool goesBelow(READ(SurfaceInteraction) isect, vec3 n, vec3 wi)
 {
     return dot3(wi, n) < 0.0f && dot3(wi, isect.ng) < 0.0f;
 }
 
 /// Makes wi the sample of a lobe of finite density, from the value of all of these.
-void takeSample(BsdfValue value, vec3 wi, uint lobe, INOUT(BsdfSample) bs)
+void takeSample(READ(BsdfValue) value, vec3 wi, uint lobe, INOUT(BsdfSample) bs)
 {
     if (!(value.pdf > 0.0f)) return;
     bs.wi = wi;

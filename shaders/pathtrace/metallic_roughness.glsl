@@ -14,25 +14,25 @@ float schlickRise(float cosine)
     return (x2 * x2) * x;
 }
 
-float dielectricSchlick(Material material, float cosine)
+float dielectricSchlick(READ(Material) material, float cosine)
 {
     float f0 = normalReflectance(material.eta);
     return f0 + (1.0f - f0) * schlickRise(cosine);
 }
 
-vec3 metalSchlick(Material material, float cosine)
+vec3 metalSchlick(READ(Material) material, float cosine)
 {
     return material.baseColor + (vec3(1.0f) - material.baseColor) * schlickRise(cosine);
 }
 
 /// Reflectance of a microfacet.
-vec3 metallicFresnel(Material material, float cosM)
+vec3 metallicFresnel(READ(Material) material, float cosM)
 {
     return vec3(dielectricSchlick(material, cosM) * (1.0f - material.metallic)) +
            metalSchlick(material, cosM) * material.metallic;
 }
 
-float schlickCoat(Material material, float cosine)
+float schlickCoat(READ(Material) material, float cosine)
 {
     return coatReflectance(cosine, alphaOf(material), dielectricSchlick(material, cosine),
                            normalReflectance(material.eta));
@@ -40,7 +40,7 @@ float schlickCoat(Material material, float cosine)
 
 /// Average of schlickCoat over the hemisphere, weighted by the cosine: with x = 1 - cosine the integral
 /// of 2 (1 - x) min(x^5, s x^3), of which the two parts meet at x^2 = s.
-float schlickCoatAverage(Material material)
+float schlickCoatAverage(READ(Material) material)
 {
     float alpha = alphaOf(material);
     float f0 = normalReflectance(material.eta);
@@ -54,7 +54,7 @@ float schlickCoatAverage(Material material)
 }
 
 /// coat: schlickCoat towards wo.
-LobeChances metallicChances(Material material, float cosO, float coat)
+LobeChances metallicChances(READ(Material) material, float cosO, float coat)
 {
     float dielectric = 1.0f - material.metallic;
     float entering = dielectric * ((1.0f - coat) * maxComponent(material.baseColor));
@@ -64,13 +64,13 @@ LobeChances metallicChances(Material material, float cosO, float coat)
 }
 
 /// Colour of the share of the dielectric that is diffuse, or that is a thin wall.
-vec3 baseShare(Material material, float share)
+vec3 baseShare(READ(Material) material, float share)
 {
     return material.baseColor * ((1.0f - material.metallic) * share);
 }
 
 /// The diffuse base's share of the BSDF without what the coat lets through on either way and 1 / pi.
-vec3 metallicBase(Material material)
+vec3 metallicBase(READ(Material) material)
 {
     float entering = 1.0f - schlickCoatAverage(material);
     if (!(entering > 0.0f)) return vec3(0.0f);

@@ -11,9 +11,9 @@
 CONST float MIN_ALPHA = 1e-4f;
 
 /// Width of the microfacets' distribution: a roughness that looks evenly spread to people, squared.
-float alphaOf(Material material) { return material.roughness * material.roughness; }
+float alphaOf(READ(Material) material) { return material.roughness * material.roughness; }
 
-bool isSmooth(Material material) { return alphaOf(material) < MIN_ALPHA; }
+bool isSmooth(READ(Material) material) { return alphaOf(material) < MIN_ALPHA; }
 
 /// Density of microfacets per projected area [1/sr]: Walter et al., Eq. 33.
 float ggxDistribution(vec3 n, vec3 m, float alpha)

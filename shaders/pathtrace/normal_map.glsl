@@ -12,7 +12,7 @@ struct UvAxes
 
 /// A triangle's, in the space where it is stored: du * e1 = p1 - p0 and so on, solved and scaled by the
 /// determinant's size, and everything before that by its largest component, so that nothing underflows.
-UvAxes triangleUvAxes(Primitive triangle, TriangleCorners corners)
+UvAxes triangleUvAxes(READ(Primitive) triangle, READ(TriangleCorners) corners)
 {
     vec3 e1 = triangle.p1 - triangle.p0;
     vec3 e2 = triangle.p2 - triangle.p0;
@@ -49,7 +49,7 @@ UvAxes sphereUvAxes(vec3 n)
 }
 
 /// The axes at a hit, in the world.
-UvAxes uvAxesAt(Traversal hit, SurfaceInteraction isect)
+UvAxes uvAxesAt(READ(Traversal) hit, READ(SurfaceInteraction) isect)
 {
     Primitive shape = loadPrimitive(hit.slot);
     bool inInstance = HAS_INSTANCES && hit.instance != NO_INSTANCE;
@@ -89,18 +89,18 @@ vec3 onSideOf(vec3 ng, vec3 ns)
     return cosine < 0.01f ? unit(ns + ng * (0.01f - cosine)) : ns;
 }
 
-/// The interaction with its shading normal as the material's normal map has it, if there is one. The texture's
+/// Turns the shading normal as the material's normal map has it, if there is one. The texture's
 /// axes are made perpendicular to the shading normal first (Gram and Schmidt).
-SurfaceInteraction bumpedInteraction(Material material, Traversal hit, SurfaceInteraction isect)
+void bumpInteraction(READ(Material) material, READ(Traversal) hit, INOUT(SurfaceInteraction) isect)
 {
     bool facets = (frame.shading & SHADING_FLAT) != 0u;
-    if (!HAS_TEXTURES || material.normalTexture == NO_TEXTURE || facets) return isect;
+    if (!HAS_TEXTURES || material.normalTexture == NO_TEXTURE || facets) return;
     UvAxes axes = uvAxesAt(hit, isect);
     vec3 n = isect.nsStored;
     vec3 t = axes.u - n * dot3(n, axes.u);
     float length2 = flushed(dot3(t, t));
     vec3 m = normalInMap(material.normalTexture, isect.u, isect.v);
-    if (!(length2 > 1e-12f * dot3(axes.u, axes.u)) || !(dot3(m, m) > 0.0f)) return isect;
+    if (!(length2 > 1e-12f * dot3(axes.u, axes.u)) || !(dot3(m, m) > 0.0f)) return;
     t = t * quotient(1.0f, root(length2));
     vec3 b = cross3(n, t);
     if (dot3(b, axes.v) < 0.0f) b = -b;
@@ -108,5 +108,4 @@ SurfaceInteraction bumpedInteraction(Material material, Traversal hit, SurfaceIn
     vec3 leaning = unit((t * m.x + b * m.y) + n * m.z);
     isect.ns = onSideOf(isect.ng, reversed ? -leaning : leaning);
     isect.nsStored = reversed ? -isect.ns : isect.ns;
-    return isect;
 }

@@ -40,13 +40,13 @@ PathState beginPath(uint x, uint y, uint sampleIndex)
     return path;
 }
 
-bool inShadowPhase(PathState path)
+bool inShadowPhase(READ(PathState) path)
 {
     return path.phase == PHASE_SHADOW || path.phase == PHASE_LAST_SHADOW;
 }
 
 /// The walk that the path's phase asks for.
-Traversal beginPathTraversal(PathState path)
+Traversal beginPathTraversal(READ(PathState) path)
 {
     return beginTraversal(inShadowPhase(path) ? path.shadowTMax : RAY_INFINITY);
 }
@@ -54,7 +54,7 @@ Traversal beginPathTraversal(PathState path)
 /// Prepares a shadow ray to one light; its arrival will add path.Ld. Returns whether there is one.
 ///   dimension  of the vertex
 ///   u          uniform in [0,1)
-bool sampleDirectLight(Material material, SurfaceInteraction isect, uint dimension, float u,
+bool sampleDirectLight(READ(Material) material, READ(SurfaceInteraction) isect, uint dimension, float u,
                        INOUT(PathState) path)
 {
     if (!HAS_FAR_LIGHTS && !HAS_SHAPE_LIGHTS && !HAS_PROBE_LIGHT) return false;
@@ -77,7 +77,8 @@ bool sampleDirectLight(Material material, SurfaceInteraction isect, uint dimensi
 /// Chooses the path's next direction and returns the lobe; LOBE_NONE when the path ends.
 ///   dimension  of the vertex
 ///   u          its numbers for the BSDF
-uint sampleNextRay(Material material, SurfaceInteraction isect, uint dimension, vec4 u, INOUT(PathState) path)
+uint sampleNextRay(READ(Material) material, READ(SurfaceInteraction) isect, uint dimension, vec4 u,
+                   INOUT(PathState) path)
 {
     BsdfSample bs = sampleBsdf(material, isect, path.dir, path.mediumEta, u);
     path.beta = flushed3(path.beta * bs.weight);
@@ -105,7 +106,7 @@ void seeEnvironment(INOUT(PathState) path)
 }
 
 /// Light that a path sees where its ray meets a surface.
-void seeEmission(SurfaceInteraction isect, Material material, Traversal hit, INOUT(PathState) path)
+void seeEmission(READ(SurfaceInteraction) isect, READ(Material) material, READ(Traversal) hit, INOUT(PathState) path)
 {
     if (!(maxComponent(material.emission) > 0.0f)) return;
     float weight = 1.0f;
@@ -117,7 +118,7 @@ void seeEmission(SurfaceInteraction isect, Material material, Traversal hit, INO
 }
 
 /// What happens at a surface: its emission, a shadow ray, the next ray. Returns the lobe sampled.
-uint shadeSurface(SurfaceInteraction isect, Material material, Traversal hit, INOUT(PathState) path)
+uint shadeSurface(READ(SurfaceInteraction) isect, READ(Material) material, READ(Traversal) hit, INOUT(PathState) path)
 {
     tally.bounces++;
     seeEmission(isect, material, hit, path);
@@ -139,7 +140,7 @@ uint shadeSurface(SurfaceInteraction isect, Material material, Traversal hit, IN
 
 /// What happens where the path's ray ended; under phong also when it is the next light's turn there.
 /// Both integrators share one place that loads the surface: some drivers run every branch.
-void shadePath(Traversal hit, INOUT(PathState) path)
+void shadePath(READ(Traversal) hit, INOUT(PathState) path)
 {
     uint depth = path.depth;
     uint lobe = LOBE_NONE;
@@ -148,8 +149,9 @@ void shadePath(Traversal hit, INOUT(PathState) path)
         seeEnvironment(path);
     } else {
         SurfaceInteraction isect = interactionAt(hit, path.org, path.dir);
-        Material material = texturedMaterial(loadMaterial(isect.material), isect.u, isect.v);
-        isect = bumpedInteraction(material, hit, isect);
+        Material material = loadMaterial(isect.material);
+        textureMaterial(isect.u, isect.v, material);
+        bumpInteraction(material, hit, isect);
         if (HAS_PHONG && (!HAS_PATHS || frame.integrator == INTEGRATOR_PHONG)) {
             shadePhong(isect, material, hit, path);
         } else {
@@ -162,7 +164,7 @@ void shadePath(Traversal hit, INOUT(PathState) path)
 }
 
 /// What happens when the shadow ray's walk is over.
-void finishShadow(Traversal hit, INOUT(PathState) path)
+void finishShadow(READ(Traversal) hit, INOUT(PathState) path)
 {
     uint blocked = hit.slot != NO_HIT ? 1u : 0u;
     path.digest += digestOf(blocked, 0u, path.depth, DIGEST_SHADOW);

@@ -15,7 +15,7 @@ bool shadingHas(uint bit) { return (frame.shading & bit) != 0u; }
 /// What one light that is seen gives to the viewer by way of a surface. Nothing from a light on the
 /// side that n does not point to.
 ///   wo  unit direction to the viewer
-vec3 phongReflection(Material material, vec3 n, vec3 wo, LightSample ls)
+vec3 phongReflection(READ(Material) material, vec3 n, vec3 wo, READ(LightSample) ls)
 {
     float cosine = dot3(ls.wi, n);
     if (!(cosine > 0.0f)) return vec3(0.0f);
@@ -32,7 +32,7 @@ vec3 phongReflection(Material material, vec3 n, vec3 wo, LightSample ls)
 }
 
 /// Whether the surface itself keeps light from wi off the side that its shading normal points to.
-bool shadowsItself(SurfaceInteraction isect, vec3 wi)
+bool shadowsItself(READ(SurfaceInteraction) isect, vec3 wi)
 {
     vec3 ng = dot3(isect.ng, isect.nsStored) < 0.0f ? -isect.ng : isect.ng;
     return !(dot3(wi, ng) > 0.0f);
@@ -46,7 +46,7 @@ void passLight(INOUT(PathState) path)
 }
 
 /// Adds what one light gives, or sends a shadow ray whose arrival will add it.
-void shadeNextLight(SurfaceInteraction isect, Material material, INOUT(PathState) path)
+void shadeNextLight(READ(SurfaceInteraction) isect, READ(Material) material, INOUT(PathState) path)
 {
     LightSample ls = illuminate(loadLight(path.depth), isect.p);
     path.Ld = phongReflection(material, isect.nsStored, -path.dir, ls);
@@ -63,7 +63,7 @@ void shadeNextLight(SurfaceInteraction isect, Material material, INOUT(PathState
 
 /// What happens at a surface: when the camera ray arrives emission and ambient light, then and in
 /// every PHASE_LIGHT the next light.
-void shadePhong(SurfaceInteraction isect, Material material, Traversal hit, INOUT(PathState) path)
+void shadePhong(READ(SurfaceInteraction) isect, READ(Material) material, READ(Traversal) hit, INOUT(PathState) path)
 {
     if (path.phase == PHASE_EXTEND) {
         tally.bounces++;

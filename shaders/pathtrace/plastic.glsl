@@ -7,7 +7,7 @@
 // beside the coat's own reflection. A white base returns all that enters. After pbrt's and Mitsuba's
 // materials; the factors are symmetric, so light may go either way.
 
-float plasticCoat(Material material, float cosine)
+float plasticCoat(READ(Material) material, float cosine)
 {
     float cosT;
     float fresnel = fresnelDielectric(min2(1.0f, cosine), material.eta, cosT);
@@ -15,7 +15,7 @@ float plasticCoat(Material material, float cosine)
 }
 
 /// The base's share of the BSDF without T(wo), T(wi) and 1 / pi.
-vec3 plasticBase(Material material)
+vec3 plasticBase(READ(Material) material)
 {
     float eta2 = material.eta * material.eta;
     float k = 1.0f - quotient(material.transmission, eta2);
@@ -25,7 +25,7 @@ vec3 plasticBase(Material material)
 }
 
 /// coat: plasticCoat towards wo.
-LobeChances plasticChances(Material material, float coat)
+LobeChances plasticChances(READ(Material) material, float coat)
 {
     float returned = material.transmission * maxComponent(plasticBase(material));
     return lobeChances(coat, (1.0f - coat) * returned, 0.0f);

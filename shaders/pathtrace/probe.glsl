@@ -22,7 +22,7 @@ vec2 angularMapFromDirection(vec3 d)
 
 /// Colour and weight of texel (x, y); beside the picture of the nearest one, except that lat-long goes
 /// round in x.
-vec4 probeTexelAt(Probe probe, int x, int y)
+vec4 probeTexelAt(READ(Probe) probe, int x, int y)
 {
     int width = int(probe.width);
     int height = int(probe.height);
@@ -36,19 +36,19 @@ vec4 probeTexelAt(Probe probe, int x, int y)
 }
 
 /// A direction on its way from the world to the probe's own space.
-vec3 toProbe(Probe probe, vec3 dir)
+vec3 toProbe(READ(Probe) probe, vec3 dir)
 {
     return vec3(dot3(probe.axisX, dir), dot3(probe.axisY, dir), dot3(probe.axisZ, dir));
 }
 
-vec3 fromProbe(Probe probe, vec3 d)
+vec3 fromProbe(READ(Probe) probe, vec3 d)
 {
     return (probe.axisX * d.x + probe.axisY * d.y) + probe.axisZ * d.z;
 }
 
 /// Radiance [W m^-2 sr^-1] and light sampling's weight of the texels that direction d, in the probe's own
 /// space, meets.
-vec4 lookUpProbe(Probe probe, vec3 d)
+vec4 lookUpProbe(READ(Probe) probe, vec3 d)
 {
     if (probe.height == 0u) return vec4(0.0f);
     if (!HAS_MANY_TEXELS || (probe.width == 1u && probe.height == 1u)) return loadProbeTexel(probe.firstTexel);
@@ -72,4 +72,4 @@ vec4 lookUpProbe(Probe probe, vec3 d)
 }
 
 /// Radiance from direction dir [W m^-2 sr^-1].
-vec3 evalProbe(Probe probe, vec3 dir) { return vec3(lookUpProbe(probe, toProbe(probe, dir))); }
+vec3 evalProbe(READ(Probe) probe, vec3 dir) { return vec3(lookUpProbe(probe, toProbe(probe, dir))); }

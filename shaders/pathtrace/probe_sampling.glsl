@@ -33,7 +33,7 @@ bool directionFromAngularMap(float u, float v, OUT(vec3) d)
 /// Solid angle that an area of the picture stands for, about direction d [sr]. Where that vanishes, at
 /// poles and at the rim, it is a very small number instead.
 ///   d  unit direction in the probe's own space
-float probeSolidAngle(Probe probe, vec3 d)
+float probeSolidAngle(READ(Probe) probe, vec3 d)
 {
     float solidAngle;
     if (HAS_ANGULAR && (!HAS_LATLONG || probe.mapping == PROBE_ANGULAR)) {

@@ -53,7 +53,7 @@ float areaToSolidAngle(float distance, float cosine)
 
 /// From here on a sphere is sampled by the solid angle that it fills. Nearer, and inside, all of its
 /// surface is: there the cone that it fills says less about what a surface receives.
-bool isFarFrom(Primitive sphere, vec3 fromCentre)
+bool isFarFrom(READ(Primitive) sphere, vec3 fromCentre)
 {
     return dot3(fromCentre, fromCentre) > 1.0001f * (sphere.p1.x * sphere.p1.x);
 }
@@ -67,7 +67,7 @@ float pdfSphereCone(float perArea, float d2, float cosine)
     return perArea * (2.0f * d2 * (1.0f + cosine));
 }
 
-float sphereConeCosine(Primitive sphere, float d2)
+float sphereConeCosine(READ(Primitive) sphere, float d2)
 {
     return root(max2(0.0f, 1.0f - quotient(sphere.p1.x * sphere.p1.x, d2)));
 }
@@ -78,7 +78,7 @@ float sphereConeCosine(Primitive sphere, float d2)
 /// An instance may make an ellipsoid of the sphere. Points are uniform on the sphere still, which the map
 /// p = M q spreads over areas |det M| |M^-T n| times as large. Its weight is taken to be that of an area of
 /// 4 pi r^2 |det M| s with s, the ray's stretch, the root of the mean square of |M^-T n|: so |det M| cancels.
-float pdfSphereSurface(float perArea, Primitive sphere, ObjectRay ray, float t)
+float pdfSphereSurface(float perArea, READ(Primitive) sphere, READ(ObjectRay) ray, float t)
 {
     vec3 f = ray.org - sphere.p0;
     float a = dot3(ray.dir, ray.dir);
@@ -91,7 +91,7 @@ float pdfSphereSurface(float perArea, Primitive sphere, ObjectRay ray, float t)
 }
 
 /// Density with which light sampling takes the direction of a ray that met a sphere [1/sr].
-float pdfSphereLight(float perArea, Primitive sphere, uint instance, vec3 org, vec3 dir, float t)
+float pdfSphereLight(float perArea, READ(Primitive) sphere, uint instance, vec3 org, vec3 dir, float t)
 {
     bool placed = HAS_INSTANCES && instance != NO_INSTANCE;
     vec3 f = org - sphere.p0;
@@ -104,7 +104,7 @@ float pdfSphereLight(float perArea, Primitive sphere, uint instance, vec3 org, v
 
 /// Density per area with which shapes of a material are sampled, where the alias table is [m^-2].
 ///   material  as it is stored
-float lightPerArea(Material material)
+float lightPerArea(READ(Material) material)
 {
     vec3 emission = material.emission;
     if (HAS_TEXTURES && material.emissionTexture != NO_TEXTURE) {
@@ -115,7 +115,7 @@ float lightPerArea(Material material)
 
 /// Density with which light sampling takes the direction of a ray that met a shape [1/sr].
 ///   chance  of the alias table
-float pdfShapeLight(float chance, Traversal hit, SurfaceInteraction isect, vec3 org, vec3 dir)
+float pdfShapeLight(float chance, READ(Traversal) hit, READ(SurfaceInteraction) isect, vec3 org, vec3 dir)
 {
     float perArea = lightPerArea(loadMaterial(isect.material)) * chance;
     if (!(perArea > 0.0f)) return 0.0f;
@@ -138,7 +138,7 @@ ShapeSample nothingSeen()
 
 /// Aims at a point q of a light. Returns the distance to it along a ray that starts at `org`, or 0 where
 /// there is no direction to it.
-float aimAtPoint(SurfaceInteraction isect, vec3 q, OUT(vec3) org, OUT(vec3) wi)
+float aimAtPoint(READ(SurfaceInteraction) isect, vec3 q, OUT(vec3) org, OUT(vec3) wi)
 {
     org = offsetOrigin(isect, q - isect.p);
     wi = vec3(0.0f);
@@ -153,7 +153,7 @@ float aimAtPoint(SurfaceInteraction isect, vec3 q, OUT(vec3) org, OUT(vec3) wi)
 }
 
 /// The triangle with its corners in the world.
-Primitive placedTriangle(Primitive triangle, uint instance)
+Primitive placedTriangle(READ(Primitive) triangle, uint instance)
 {
     Primitive placed = triangle;
     placed.p0 = worldPointOf(instance, triangle.p0);
@@ -165,8 +165,8 @@ Primitive placedTriangle(Primitive triangle, uint instance)
 /// A point of a triangle, all as likely.
 ///   material  of the instance, or NO_MATERIAL
 ///   u1, u2    uniform in [0,1)
-ShapeSample sampleTriangleLight(float perArea, Primitive triangle, uint instance, uint material,
-                                SurfaceInteraction isect, float u1, float u2)
+ShapeSample sampleTriangleLight(float perArea, READ(Primitive) triangle, uint instance, uint material,
+                                READ(SurfaceInteraction) isect, float u1, float u2)
 {
     Primitive placed = placedTriangle(triangle, instance);
     float side = root(u1);
@@ -193,7 +193,7 @@ ShapeSample sampleTriangleLight(float perArea, Primitive triangle, uint instance
 }
 
 /// Texture coordinates of the point of a sphere that a ray meets at distance t.
-void lookUpSphere(Primitive sphere, ObjectRay ray, float t, INOUT(ShapeSample) ss)
+void lookUpSphere(READ(Primitive) sphere, READ(ObjectRay) ray, float t, INOUT(ShapeSample) ss)
 {
     if (!HAS_TEXTURES) return;
     vec2 uv = sphereUv(unit((ray.org + ray.dir * t) - sphere.p0));
@@ -203,7 +203,7 @@ void lookUpSphere(Primitive sphere, ObjectRay ray, float t, INOUT(ShapeSample) s
 
 /// A direction within the cone that a sphere fills, all as likely.
 ///   u1, u2  uniform in [0,1)
-ShapeSample sampleSphereCone(float perArea, Primitive sphere, SurfaceInteraction isect, vec3 from, float u1,
+ShapeSample sampleSphereCone(float perArea, READ(Primitive) sphere, READ(SurfaceInteraction) isect, vec3 from, float u1,
                              float u2)
 {
     vec3 toCentre = sphere.p0 - from;
@@ -236,7 +236,7 @@ ShapeSample sampleSphereCone(float perArea, Primitive sphere, SurfaceInteraction
 /// A point of a sphere, all as likely. What is seen is the side of the sphere that its direction meets
 /// first, which the density takes into account.
 ///   u1, u2  uniform in [0,1)
-ShapeSample sampleSphereSurface(float perArea, Primitive sphere, uint instance, SurfaceInteraction isect,
+ShapeSample sampleSphereSurface(float perArea, READ(Primitive) sphere, uint instance, READ(SurfaceInteraction) isect,
                                 float u1, float u2)
 {
     float height = (1.0f - u1) - u1;
@@ -258,7 +258,7 @@ ShapeSample sampleSphereSurface(float perArea, Primitive sphere, uint instance, 
     return ss;
 }
 
-ShapeSample sampleSphereLight(float perArea, Primitive sphere, uint instance, SurfaceInteraction isect,
+ShapeSample sampleSphereLight(float perArea, READ(Primitive) sphere, uint instance, READ(SurfaceInteraction) isect,
                               float u1, float u2)
 {
     bool placed = HAS_INSTANCES && instance != NO_INSTANCE;

@@ -1,7 +1,7 @@
 // Diffuse and perfectly smooth surfaces.
 
 /// Density of wi given that the diffuse lobe was chosen [1/sr].
-float pdfDiffuse(SurfaceInteraction isect, vec3 wi)
+float pdfDiffuse(READ(SurfaceInteraction) isect, vec3 wi)
 {
     if (!(dot3(wi, isect.ng) > 0.0f)) return 0.0f;
     return pdfCosineHemisphere(dot3(wi, isect.ns));
@@ -9,7 +9,7 @@ float pdfDiffuse(SurfaceInteraction isect, vec3 wi)
 
 /// Samples the diffuse lobe with density pdfDiffuse. Directions under the geometric surface, which an
 /// interpolated normal can ask for, carry nothing.
-void sampleDiffuse(SurfaceInteraction isect, vec3 color, float u1, float u2, INOUT(BsdfSample) bs)
+void sampleDiffuse(READ(SurfaceInteraction) isect, vec3 color, float u1, float u2, INOUT(BsdfSample) bs)
 {
     bs.wi = sampleCosineHemisphere(isect.ns, u1, u2);
     bs.pdf = pdfDiffuse(isect, bs.wi);
@@ -18,7 +18,7 @@ void sampleDiffuse(SurfaceInteraction isect, vec3 color, float u1, float u2, INO
 }
 
 /// The mirror direction; nothing where an interpolated normal would send it under the surface.
-void sampleReflection(SurfaceInteraction isect, vec3 dir, vec3 color, INOUT(BsdfSample) bs)
+void sampleReflection(READ(SurfaceInteraction) isect, vec3 dir, vec3 color, INOUT(BsdfSample) bs)
 {
     bs.wi = reflected(dir, mirrorNormal(isect, dir));
     bs.lobe = dot3(bs.wi, isect.ng) > 0.0f ? LOBE_REFLECT : LOBE_NONE;
@@ -29,7 +29,7 @@ void sampleReflection(SurfaceInteraction isect, vec3 dir, vec3 color, INOUT(Bsdf
 ///   eta   index of refraction of the far side relative to the near side
 ///   far   index of refraction of the far side, for the report's rule
 ///   tint  weight of what is transmitted
-void sampleFresnel(SurfaceInteraction isect, vec3 dir, float eta, float far, vec3 tint, float u,
+void sampleFresnel(READ(SurfaceInteraction) isect, vec3 dir, float eta, float far, vec3 tint, float u,
                    INOUT(BsdfSample) bs)
 {
     vec3 n = mirrorNormal(isect, dir);
@@ -47,25 +47,25 @@ void sampleFresnel(SurfaceInteraction isect, vec3 dir, float eta, float far, vec
 }
 
 /// Index of refraction of the far side relative to the near side.
-float farIndex(Material material, bool front)
+float farIndex(READ(Material) material, bool front)
 {
     return front ? material.eta : quotient(1.0f, material.eta);
 }
 
-vec3 conductorReflectance(Material material, float cosI)
+vec3 conductorReflectance(READ(Material) material, float cosI)
 {
     return vec3(fresnelConductor(cosI, material.conductorEta.x, material.conductorK.x),
                 fresnelConductor(cosI, material.conductorEta.y, material.conductorK.y),
                 fresnelConductor(cosI, material.conductorEta.z, material.conductorK.z));
 }
 
-void sampleConductor(Material material, SurfaceInteraction isect, vec3 dir, INOUT(BsdfSample) bs)
+void sampleConductor(READ(Material) material, READ(SurfaceInteraction) isect, vec3 dir, INOUT(BsdfSample) bs)
 {
     float cosI = min2(1.0f, absolute(dot3(dir, mirrorNormal(isect, dir))));
     sampleReflection(isect, dir, conductorReflectance(material, cosI), bs);
 }
 
-void sampleDielectric(Material material, SurfaceInteraction isect, vec3 dir, float u,
+void sampleDielectric(READ(Material) material, READ(SurfaceInteraction) isect, vec3 dir, float u,
                       INOUT(BsdfSample) bs)
 {
     // Radiance is compressed into a smaller solid angle in the denser medium: 1 / eta^2.
@@ -77,7 +77,7 @@ void sampleDielectric(Material material, SurfaceInteraction isect, vec3 dir, flo
 
 /// The report's material: diffuse and dielectric parts, one of them chosen by their weights. Its rule
 /// for leaving an object: a surface of the index that the path is in already leads out into vacuum.
-void sampleReportMaterial(Material material, SurfaceInteraction isect, vec3 dir, vec4 u,
+void sampleReportMaterial(READ(Material) material, READ(SurfaceInteraction) isect, vec3 dir, vec4 u,
                           INOUT(BsdfSample) bs)
 {
     float sum = material.diffuseWeight + material.specularWeight;

@@ -30,13 +30,13 @@ uint texelPlace(int i, uint size, bool clamps)
 }
 
 /// Texel (x, y), counted from the lower left.
-uint texelAt(Texture map, uint x, uint y)
+uint texelAt(READ(Texture) map, uint x, uint y)
 {
     return loadTextureTexel(map.firstTexel + ((map.height - 1u) - y) * map.width + x);
 }
 
 /// The texels that a lookup is made of; of the nearest texel alone four times that.
-TexelQuad texelsAround(Texture map, float u, float v)
+TexelQuad texelsAround(READ(Texture) map, float u, float v)
 {
     bool nearest = (map.flags & TEXTURE_NEAREST) != 0u;
     bool clampS = (map.flags & TEXTURE_CLAMP_S) != 0u;
@@ -98,14 +98,14 @@ float lookUpAlpha(uint number, float u, float v)
 }
 
 /// Texture coordinates at the point of a triangle with these barycentric coordinates.
-vec2 cornersUv(TriangleCorners corners, float b1, float b2)
+vec2 cornersUv(READ(TriangleCorners) corners, float b1, float b2)
 {
     float b0 = (1.0f - b1) - b2;
     return vec2((corners.u0 * b0 + corners.u1 * b1) + corners.u2 * b2,
                 (corners.v0 * b0 + corners.v1 * b1) + corners.v2 * b2);
 }
 
-vec2 triangleUv(Primitive triangle, float b1, float b2)
+vec2 triangleUv(READ(Primitive) triangle, float b1, float b2)
 {
     if (triangle.shape == SHAPE_FLAT) return vec2(0.0f);
     return cornersUv(loadCorners(triangle.shape), b1, b2);
@@ -121,7 +121,7 @@ vec2 sphereUv(vec3 n)
 
 /// Whether a material has a hole at a point of a triangle: by a hit there is nothing then.
 ///   instanceMaterial  what takes the place of the triangle's own, or NO_MATERIAL
-bool isCutOut(Primitive triangle, uint instanceMaterial, float b1, float b2)
+bool isCutOut(READ(Primitive) triangle, uint instanceMaterial, float b1, float b2)
 {
     if (triangle.shape == SHAPE_SPHERE) return false;
     Material material =
@@ -132,16 +132,16 @@ bool isCutOut(Primitive triangle, uint instanceMaterial, float b1, float b2)
 }
 
 /// Radiance of a material at (u, v) [W m^-2 sr^-1].
-vec3 emittedAt(Material material, float u, float v)
+vec3 emittedAt(READ(Material) material, float u, float v)
 {
     if (!HAS_TEXTURES || material.emissionTexture == NO_TEXTURE) return material.emission;
     return flushed3(material.emission * lookUpColor(material.emissionTexture, u, v));
 }
 
-/// The material as it is at (u, v): its numbers times those of its textures.
-Material texturedMaterial(Material material, float u, float v)
+/// Makes of a material what it is at (u, v): its numbers times those of its textures.
+void textureMaterial(float u, float v, INOUT(Material) material)
 {
-    if (!HAS_TEXTURES) return material;
+    if (!HAS_TEXTURES) return;
     if (material.baseColorTexture != NO_TEXTURE)
         material.baseColor = material.baseColor * lookUpColor(material.baseColorTexture, u, v);
     material.emission = emittedAt(material, u, v);
@@ -150,5 +150,4 @@ Material texturedMaterial(Material material, float u, float v)
         material.roughness = material.roughness * share.y;
         material.metallic = material.metallic * share.z;
     }
-    return material;
 }

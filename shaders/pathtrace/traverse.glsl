@@ -79,7 +79,7 @@ WalkRay makeWalkRay(vec3 org, vec3 dir, float entry, uint firstNumber)
 
 /// The ray in the space of the object of an instance.
 ///   entry  of the ray into the instance's box in the world
-WalkRay walkRayInside(ObjectInstance instance, vec3 org, vec3 dir, float entry)
+WalkRay walkRayInside(READ(ObjectInstance) instance, vec3 org, vec3 dir, float entry)
 {
     WalkRay ray = makeWalkRay(pointToObject(instance, org), directionToObject(instance, dir), entry,
                               instance.firstNumber);
@@ -92,7 +92,7 @@ WalkRay walkRayInside(ObjectInstance instance, vec3 org, vec3 dir, float entry)
 }
 
 /// The ray as a walk needs it that goes on where another dispatch left it.
-WalkRay walkRayOf(Traversal walk, vec3 org, vec3 dir)
+WalkRay walkRayOf(READ(Traversal) walk, vec3 org, vec3 dir)
 {
     WalkRay ray = makeWalkRay(org, dir, 0.0f, 0u);
     if (HAS_INSTANCES && walk.inside != NO_INSTANCE) {

@@ -309,8 +309,9 @@ vec3 bumped(const TriangleCorners& corners, vec3 dir)
     hit.slot = 0;
     hit.instance = NO_INSTANCE;
     hit.b1 = hit.b2 = 0.25f;
-    const auto isect = kernel.interactionAt(hit, -dir, dir);
-    return kernel.bumpedInteraction(material, hit, isect).ns;
+    auto isect = kernel.interactionAt(hit, -dir, dir);
+    kernel.bumpInteraction(material, hit, isect);
+    return isect.ns;
 }
 
 /// Red leans the normal along u and green along v, wherever the triangle has them: here along the
