@@ -67,9 +67,12 @@ struct Kernel {
     /// Has what a reference to a wide node or a leaf leads to read ahead.
     void expectRef(uint ref) const
     {
-        if ((ref & REF_LEAF) != 0)
-            __builtin_prefetch(primitives.data() + ((ref & ~REF_LEAF) >> LEAF_COUNT_BITS));
-        else if ((ref & REF_NOT_INNER) == 0)
+        if ((ref & REF_LEAF) != 0) {
+            // And the next line: triangles lie across lines, and most leaves have more than one
+            const Primitive* first = primitives.data() + ((ref & ~REF_LEAF) >> LEAF_COUNT_BITS);
+            __builtin_prefetch(first);
+            __builtin_prefetch(reinterpret_cast<const char*>(first) + 64);
+        } else if ((ref & REF_NOT_INNER) == 0)
             __builtin_prefetch(&wideNodeOf(ref));
     }
     const Primitive& loadPrimitive(uint index) const { return primitives[index]; }
