@@ -22,6 +22,8 @@ using glm::vec4;
 #define SHARED_CONST static constexpr
 #define GPU_STRUCT_SIZE(Struct, bytes) static_assert(sizeof(Struct) == (bytes))
 #define GPU_FIELD(Struct, field, offset) static_assert(offsetof(Struct, field) == (offset))
+// Begins every element at a multiple of `bytes`, the host's memory of arrays as well.
+#define HOST_ALIGNED(bytes) alignas(bytes)
 
 #else
 
@@ -30,6 +32,7 @@ using glm::vec4;
 #define SHARED_CONST const
 #define GPU_STRUCT_SIZE(Struct, bytes)
 #define GPU_FIELD(Struct, field, offset)
+#define HOST_ALIGNED(bytes)
 
 #endif
 

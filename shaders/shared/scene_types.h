@@ -34,7 +34,8 @@ SHARED_CONST uint NO_MATERIAL = 0xffffffffu;
 SHARED_CONST uint MAX_INSTANCES = 1048576u;  // 2^20
 
 // An inner node holds the boxes of its two children: one read serves two box tests.
-struct BvhNode
+// Nodes are as large as a line of the processor's cache and begin where one does: a visit reads one line, not two.
+struct HOST_ALIGNED(64) BvhNode
 {
     vec3 lo0;   // box of child 0, world space [m]
     uint ref0;  // see above
@@ -54,7 +55,7 @@ GPU_FIELD(BvhNode, hi1, 48);
 //   (q + gridAt) 2^k,  q its 16 bits, gridAt a whole number, k an integer for each axis
 // and the box that the planes bound encloses the child's box. GRID_BIAS + k are the bytes of gridScale, x
 // lowest; gridAt and gridScale are the tree's: in Frame for the world, in ObjectInstance for an object.
-struct WideNode
+struct HOST_ALIGNED(64) WideNode
 {
     uvec4 x;     // of every child the lower plane's bits | the upper's << 16
     uvec4 y;
