@@ -68,7 +68,7 @@ struct Kernel {
     void expectRef(uint ref) const
     {
         if ((ref & REF_LEAF) != 0) {
-            // And the next line: triangles lie across lines, and most leaves have more than one
+            // And the next line: triangles lie across lines, and leaves may have several
             const Primitive* first = primitives.data() + ((ref & ~REF_LEAF) >> LEAF_COUNT_BITS);
             __builtin_prefetch(first);
             __builtin_prefetch(reinterpret_cast<const char*>(first) + 64);
