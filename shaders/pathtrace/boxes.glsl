@@ -7,7 +7,7 @@
 CONST float WIDENING = 7.15255737e-07f;
 CONST float LARGEST_FLOAT = 3.40282347e+38f;
 
-// What box tests need of a ray.
+// What box tests need of a ray. Handed on by value, as is ShearedRay: by READ the CPU's walks were 1 to 4 % slower.
 struct BoxRay
 {
     Axes inverse;  // 1 / direction, clamped so that no axis is infinite
