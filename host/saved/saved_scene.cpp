@@ -86,6 +86,7 @@ SavedArrays takeArrays(Sections& sections)
 {
     SavedArrays arrays;
     forEachArray(arrays, [&]<class Element>(const char* name, std::span<const Element>& array) {
+        static_assert(alignof(Element) <= SECTION_ALIGNMENT);
         const std::span<const std::byte> bytes = sections.take(name, sizeof(Element));
         array = {reinterpret_cast<const Element*>(bytes.data()), bytes.size() / sizeof(Element)};
     });
