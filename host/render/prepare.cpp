@@ -30,6 +30,8 @@ DeviceScene ownArrays(const Scene& scene, const Bvh& bvh)
     return view;
 }
 
+bool shines(const Material& material) { return material.emission != vec3(0); }
+
 }  // namespace
 
 DeviceScene PreparedScene::deviceScene() const
@@ -60,7 +62,7 @@ DeviceScene PreparedScene::deviceScene() const
     view.frame.integrator = scene.settings.integrator;
     view.frame.jitter = scene.settings.jitter ? 1 : 0;
     view.frame.ambient = scene.settings.ambient;
-    view.frame.shading = scene.settings.shading;
+    view.frame.shading = scene.settings.shading | (std::ranges::none_of(view.materials, shines) ? SHADING_DARK : 0);
     view.frame.samplerKind = scene.settings.samplerKind;
     view.frame.rouletteDepth = scene.settings.rouletteDepth;
     view.frame.clampIndirect = scene.settings.clampIndirect;

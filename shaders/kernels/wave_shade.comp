@@ -46,6 +46,7 @@ uint shadeEntry(uint entry, out bool ends)
         if (HAS_SHADOW_RAYS && inShadowPhase(path)) storeShadowRay(slot, path);
     }
     if (HAS_PHONG && path.phase == PHASE_LIGHT) return slot | ENTRY_OVER;
+    if (seesTheEnvironmentOrNothing(path)) return slot | ENTRY_ANY_HIT;
     return inShadowPhase(path) ? slot | ENTRY_SHADOW : slot;
 }
 

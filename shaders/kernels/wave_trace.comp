@@ -68,7 +68,7 @@ void main()
     tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
     Traversal walk = beginTraversal(tMax);
     if (WAVE_RESUMES && (entry & ENTRY_BEGUN) != 0u) walk = resumedWalk(slot);
-    bool over = traverse(org, dir, shadow, walk);
+    bool over = traverse(org, dir, shadow || (entry & ENTRY_ANY_HIT) != 0u, walk);
     if (!over && faults == 0u) {
         atomicAdd(counts.outOfSteps, 1u);
         if (WAVE_RESUMES) {

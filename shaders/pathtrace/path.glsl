@@ -45,6 +45,14 @@ bool inShadowPhase(READ(PathState) path)
     return path.phase == PHASE_SHADOW || path.phase == PHASE_LAST_SHADOW;
 }
 
+/// Whether the path's ray is its last one and can see the environment only: then it does not matter what it meets. (Rays of
+/// the camera are left out: what they meet is counted and compared.)
+bool seesTheEnvironmentOrNothing(READ(PathState) path)
+{
+    return HAS_PATHS && path.phase == PHASE_EXTEND && path.depth != 0u && path.depth >= frame.maxBounces &&
+           (frame.shading & SHADING_DARK) != 0u && frame.integrator == INTEGRATOR_PATH;
+}
+
 /// The walk that the path's phase asks for.
 Traversal beginPathTraversal(READ(PathState) path)
 {
@@ -145,8 +153,12 @@ void shadePath(READ(Traversal) hit, INOUT(PathState) path)
     uint depth = path.depth;
     uint lobe = LOBE_NONE;
     bool arrives = path.phase == PHASE_EXTEND;
+    bool blocked = seesTheEnvironmentOrNothing(path) && hit.slot != NO_HIT;
     if (hit.slot == NO_HIT) {
         seeEnvironment(path);
+    } else if (blocked) {
+        tally.bounces++;
+        path.phase = PHASE_ENDED;
     } else {
         SurfaceInteraction isect = interactionAt(hit, path.org, path.dir);
         Material material = loadMaterial(isect.material);
@@ -159,7 +171,10 @@ void shadePath(READ(Traversal) hit, INOUT(PathState) path)
         }
     }
     if (arrives) {
-        path.digest += digestOf(hit.number, floatBitsToUint(hit.tHit), depth, DIGEST_HIT + lobe);
+        // Which of those in its way a ray finds that ends at any hit is a matter of the order of visits
+        uint number = blocked ? 0u : hit.number;
+        uint distance = blocked ? 0u : floatBitsToUint(hit.tHit);
+        path.digest += digestOf(number, distance, depth, DIGEST_HIT + lobe);
     }
 }
 
@@ -188,7 +203,7 @@ void stepPath(INOUT(PathState) path, INOUT(Traversal) walk)
         stepsLeft--;
         walk = path.hit;
     } else {
-        over = traverse(org, dir, shadow, walk);
+        over = traverse(org, dir, shadow || seesTheEnvironmentOrNothing(path), walk);
     }
     if (!over || faults != 0u) return;
     if (shadow) {

@@ -313,6 +313,7 @@ SHARED_CONST uint SHADING_DIFFUSE = 2u;
 SHARED_CONST uint SHADING_SPECULAR = 4u;
 SHARED_CONST uint SHADING_SHADOWS = 8u;    // lights count only where they are seen
 SHARED_CONST uint SHADING_FLAT = 16u;      // geometric normals in place of interpolated ones
+SHARED_CONST uint SHADING_DARK = 32u;      // no surface shines
 SHARED_CONST uint SHADING_TERMS = 7u;      // all terms
 
 // Everything that stays the same for a whole picture.

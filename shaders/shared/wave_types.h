@@ -17,6 +17,7 @@ SHARED_CONST uint ENTRY_SHADOW = 0x01000000u;   // the walk is the shadow ray's
 SHARED_CONST uint ENTRY_BLOCKED = 0x02000000u;  // which has met something
 SHARED_CONST uint ENTRY_BEGUN = 0x04000000u;    // the walk ran out of steps and waits in `walks`
 SHARED_CONST uint ENTRY_OVER = 0x08000000u;     // the walk is over: it is wave_shade's turn
+SHARED_CONST uint ENTRY_ANY_HIT = 0x10000000u;  // no shadow ray's, but ends at any hit all the same
 SHARED_CONST uint MAX_WAVE_SLOTS = 0x00ffffffu;
 
 // Head of the buffer of queues. After it: two queues, of this wave and of the next in turns, then the slots that are
