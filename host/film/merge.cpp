@@ -20,7 +20,7 @@ bool mayDiffer(const std::string& name)
         "sahl.device",       "sahl.driver",       "sahl.filmCounters", "sahl.filmHash",
         "sahl.firstSample",  "sahl.interrupted",  "sahl.partial",      "sahl.passes",
         "sahl.sampleCount",  "sahl.sampleRanges", "sahl.scene",        "sahl.shard",
-        "sahl.totalSamples",
+        "sahl.stopped",      "sahl.totalSamples",
     };
     return names.contains(name) || !name.starts_with("sahl.");
 }
@@ -161,6 +161,16 @@ std::string allValues(std::span<const FilmFile> files, const std::string& name)
     return fmt::format("{}", fmt::join(values, "; "));
 }
 
+/// Why samples are missing: of the first part that says so.
+std::string stoppedBy(std::span<const FilmFile> files, bool isWhole)
+{
+    for (const FilmFile& file : files) {
+        const std::string& stopped = file.attribute("sahl.stopped");
+        if (!isWhole && !stopped.empty() && stopped != "no") return stopped;
+    }
+    return "no";
+}
+
 ImageMetadata metadataOfAll(std::span<const FilmFile> files, const FilmLabel& label)
 {
     ImageMetadata metadata;
@@ -175,6 +185,7 @@ ImageMetadata metadataOfAll(std::span<const FilmFile> files, const FilmLabel& la
     metadata["sahl.sampleCount"] = std::to_string(samplesIn(label.ranges));
     metadata["sahl.passes"] = std::to_string(blocksIn(label.ranges));
     metadata["sahl.interrupted"] = interrupted && !label.isWhole() ? "yes" : "no";
+    if (!files[0].attribute("sahl.stopped").empty()) metadata["sahl.stopped"] = stoppedBy(files, label.isWhole());
     metadata["sahl.device"] = allValues(files, "sahl.device");
     metadata["sahl.driver"] = allValues(files, "sahl.driver");
     return metadata;
