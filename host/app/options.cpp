@@ -7,6 +7,7 @@
 #include "app/tree_options.h"
 #include "device/variants.h"
 #include "film/film.h"
+#include "film/replicates.h"
 #include "saved/saved_scene.h"
 #include "util/error.h"
 #include "util/memory.h"
@@ -217,10 +218,10 @@ void requireFilmMemory(const RenderSettings& settings, unsigned films)
 {
     // The film, the blocks of a pass; and at last two pictures, the four layers of
     // statistics, and their files.
-    constexpr uint64_t FILM = filmBytes(1, 1) + sizeof(PixelBlock);
+    const uint64_t film = filmBytes(1, 1, replicateSizeOf(settings.samplerKind)) + sizeof(PixelBlock);
     constexpr uint64_t PICTURES = (4 * 3 + 4) * sizeof(float);
     uint64_t pixels = uint64_t{settings.width} * settings.height;
-    requireMemory(pixels * (FILM * films + PICTURES),
+    requireMemory(pixels * (film * films + PICTURES),
                   fmt::format("a picture of {} x {} pixels", settings.width, settings.height),
                   "render a smaller one");
 }

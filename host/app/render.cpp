@@ -18,6 +18,7 @@
 #include "app/stop_options.h"
 #include "film/fireflies.h"
 #include "film/layers.h"
+#include "film/replicates.h"
 #include "render/outline.h"
 #include "render/prepare.h"
 #include "render/scene_hash.h"
@@ -255,7 +256,9 @@ RenderResult renderLight(const RenderOptions& options, const Scene& scene, const
         printer.update(progress);
     };
     PartialPictures partial(options.partialSeconds.value_or(0), [&](const RenderResult& soFar) {
-        writePictures(options, scene, soFar, device, firstHits, true);
+        RenderOptions shown = options;
+        shown.output.film = options.output.film && !soFar.endsInReplicate;
+        writePictures(shown, scene, soFar, device, firstHits, true);
     });
     RenderResult result;
     if (isAdaptive(scene.settings)) {
@@ -325,7 +328,9 @@ int runRender(RenderOptions& options)
         refuseToReplaceInputs(outputs);
         options.samples = rangeOf(options.range, scene.settings);
         filmSettings = applyCrop(options, scene.settings);
-        requireFilmMemory(filmSettings, options.output.film ? 2 : 1);
+        // The film once more as channels, and as it was after the last whole replicate
+        const bool keepsWhole = options.output.film && replicateSizeOf(scene.settings.samplerKind) > BLOCK_SIZE;
+        requireFilmMemory(filmSettings, 1 + (options.output.film ? 1 : 0) + (keepsWhole ? 1 : 0));
         seconds.load = watch.lap();
         // A saved scene has its tree, and a part that is there already needs no device
         const bool isSaved = scene.primitives.empty();
@@ -346,6 +351,7 @@ int runRender(RenderOptions& options)
     RenderPlan plan = {filmSettings.width, filmSettings.height, options.samples.first,
                        options.samples.end - options.samples.first, options.common.tileSize};
     plan.threads = threadsFor(options.common);
+    plan.wholeReplicates = options.output.film;
     if (options.crop) {
         plan.left = options.crop->x;
         plan.top = options.crop->y;
@@ -358,6 +364,11 @@ int runRender(RenderOptions& options)
     seconds.render = watch.lap();
 
     if (result.passes == 0) options.output.film = false;  // its pixels have different samples
+    if (options.output.film && result.endsInReplicate) {
+        options.output.film = false;
+        warn(fmt::format("the {} samples end inside a block of {}, which cannot be torn apart; the file has no film to merge",
+                         samplesIn({takenOf(options.samples, result.passes)}), result.film.replicateSize));
+    }
     if (result.interrupted) sayInterrupted(options, settings, result);
     if (result.film.counters.cameraRays == 0) return interruptedExitCode();
 

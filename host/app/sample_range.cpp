@@ -3,6 +3,7 @@
 #include "app/adaptive.h"
 #include "app/option_kinds.h"
 #include "app/outputs.h"
+#include "film/replicates.h"
 #include "scene/adaptive.h"
 #include "util/error.h"
 
@@ -43,15 +44,15 @@ ArrayTask parseShard(const std::string& text)
     return {parseNumber("--shard", index, {0, count - 1}), count, ""};
 }
 
-/// Sums are exact across blocks of 8 samples, so a part begins and ends where blocks do.
-void requireBlockBorder(uint32_t sample, const SampleRange& range, uint32_t total)
+/// Sums are exact across blocks of samples, so a part begins and ends where blocks do.
+void requireBlockBorder(uint32_t sample, const SampleRange& range, uint32_t blockSize, uint32_t total)
 {
-    if (sample % BLOCK_SIZE == 0 || sample == total) return;
-    const uint32_t below = sample / BLOCK_SIZE * BLOCK_SIZE;
+    if (sample % blockSize == 0 || sample == total) return;
+    const uint32_t below = sample / blockSize * blockSize;
     throw usageError(
         "--sample-range {}: {} is inside a block of {} samples, which cannot be torn apart; "
         "take {} or {}",
-        rangeText(range), sample, BLOCK_SIZE, below, std::min(below + BLOCK_SIZE, total));
+        rangeText(range), sample, blockSize, below, std::min(below + blockSize, total));
 }
 
 }  // namespace
@@ -73,7 +74,7 @@ void addRangeOptions(CLI::App& command, RangeOptions& options)
         .add_option_function<std::string>(
             "--sample-range", setRange,
             withDefault("render samples A to B-1 of every pixel; both multiples\n"
-                        "of 8, or B the last",
+                        "of 8 (by sobol64 of 64), or B the last",
                         "all"))
         ->type_name("A:B")
         ->group("Parts");
@@ -118,25 +119,26 @@ SampleRange rangeOf(const RangeOptions& options, const RenderSettings& settings)
             adaptiveRuleName(settings.adaptive.rule));
     }
     const uint32_t total = mostSamples(settings);
+    const uint32_t blockSize = blockOfReplicates(replicateSizeOf(settings.samplerKind));
     if (options.range) {
         const SampleRange range = *options.range;
         if (range.end > total) {
             throw usageError("--sample-range {}: the picture has {} samples a pixel; give --spp {}",
                              rangeText(range), total, range.end);
         }
-        requireBlockBorder(range.first, range, total);
-        requireBlockBorder(range.end, range, total);
+        requireBlockBorder(range.first, range, blockSize, total);
+        requireBlockBorder(range.end, range, blockSize, total);
         return range;
     }
     if (!options.shard) return {0, total};
-    const uint32_t blocks = blocksIn(total);
+    const uint32_t blocks = blocksIn(total, blockSize);
     if (options.shard->count > blocks) {
         throw usageError(
             "--shard {}/{}: {} samples are {} block{} of {}, so there are at most {} shards",
             options.shard->index, options.shard->count, total, blocks, blocks == 1 ? "" : "s",
-            BLOCK_SIZE, blocks);
+            blockSize, blocks);
     }
-    return shardOf(options.shard->index, options.shard->count, total);
+    return shardOf(options.shard->index, options.shard->count, total, blockSize);
 }
 
 std::string shardText(const ArrayTask& shard)

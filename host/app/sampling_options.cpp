@@ -1,6 +1,7 @@
 #include "app/sampling_options.h"
 
 #include "app/option_kinds.h"
+#include "film/replicates.h"
 #include "scene/sampling.h"
 
 namespace sahl {
@@ -15,7 +16,7 @@ void addSamplingOptions(CLI::App& command, SceneOptions& scene)
         .add_option_function<std::string>(
             "--sampler", setSampler,
             withDefault(
-                "independent, or sobol: blocks of 8 samples spread evenly\n(docs/sampling.md)",
+                "independent, or spread evenly: sobol in blocks of 8 samples,\nsobol64 of 64 (docs/sampling.md)",
                 "the scene's, else independent"))
         ->type_name("NAME")
         ->group("Picture");
@@ -66,7 +67,7 @@ ImageMetadata describeSampling(const RenderSettings& settings)
 {
     ImageMetadata entries = {
         {"sahl.sampler", samplerName(settings.samplerKind)},
-        {"sahl.varianceOver", settings.samplerKind == SAMPLER_SOBOL ? "blocks" : "samples"},
+        {"sahl.varianceOver", varianceOver(replicateSizeOf(settings.samplerKind))},
         {"sahl.lightSampling", lightSamplingName(settings.lightSampling)}};
     const bool roulette = settings.rouletteDepth != NO_ROULETTE, clamp = settings.clampIndirect > 0;
     // Always there, so that files with and without can be told apart.

@@ -150,7 +150,7 @@ Json statisticsJson(const PreparedScene& prepared, const Film& film, Device& dev
            counters.cameraRays > 0 ? double(rays) / double(counters.cameraRays) : 0},
           {"boxTestsPerRay", rays > 0 ? double(counters.boxTests) / double(rays) : 0},
           {"primitiveTestsPerRay", rays > 0 ? double(counters.primitiveTests) / double(rays) : 0}}},
-        {"filmBytes", filmBytes(film.width, film.height)},
+        {"filmBytes", filmBytes(film.width, film.height, film.replicateSize)},
         {"peakMemoryBytes", peakMemory()},
     };
 }

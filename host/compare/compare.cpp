@@ -80,7 +80,7 @@ Judgement judgeStatistics(const Statistics& s, const CompareOptions& options)
     if (s.excludedPixels == s.z.size()) {
         return {Verdict::undecided,
                 "no pixel has a usable variance in both files, which takes at least 2 "
-                "samples a pixel, and more than 8 by the sampler sobol"};
+                "samples a pixel, more than 8 by the sampler sobol, more than 64 by sobol64"};
     }
     if (!(s.frame.standardError > 0)) {
         return {Verdict::undecided,

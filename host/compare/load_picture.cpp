@@ -1,9 +1,9 @@
 // Pictures from files of every kind that a comparison takes.
 #include "compare/compare.h"
+#include "film/replicates.h"
 #include "image/exr_layers.h"
 #include "image/png_read.h"
 #include "image/tone_map.h"
-#include "shared/film_types.h"
 #include "util/error.h"
 
 #include <algorithm>
@@ -70,8 +70,8 @@ void readLayersInto(const fs::path& path, LoadedPicture& picture)
 double LoadedPicture::replicates(size_t pixel) const
 {
     const auto over = metadata.find("sahl.varianceOver");
-    const bool overBlocks = over != metadata.end() && over->second == "blocks";
-    return overBlocks ? std::ceil(samples[pixel] / float{BLOCK_SIZE}) : samples[pixel];
+    const uint32_t size = over != metadata.end() ? replicateSizeIn(over->second) : 1;
+    return std::ceil(samples[pixel] / static_cast<float>(size));
 }
 
 LoadedPicture loadPicture(const fs::path& path)

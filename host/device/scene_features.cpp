@@ -37,7 +37,8 @@ uint32_t featuresOf(const Frame& frame)
     return featureIf(frame.integrator == INTEGRATOR_PHONG, FEATURE_PHONG) |
            featureIf(frame.integrator != INTEGRATOR_PHONG, FEATURE_PATHS) |
            featureIf(frame.samplerKind == SAMPLER_INDEPENDENT, FEATURE_INDEPENDENT) |
-           featureIf(frame.samplerKind != SAMPLER_INDEPENDENT, FEATURE_SOBOL) |
+           featureIf(frame.samplerKind == SAMPLER_SOBOL, FEATURE_SOBOL) |
+           featureIf(frame.samplerKind == SAMPLER_SOBOL64, FEATURE_SOBOL64) |
            featureIf(frame.probeMean > 0, FEATURE_PROBE_LIGHT) | featuresOf(frame.probe) |
            featuresOf(frame.background);
 }

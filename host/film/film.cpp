@@ -1,6 +1,7 @@
 // Adding blocks and films up, and the mean picture.
 #include "film/film.h"
 
+#include "film/replicates.h"
 #include "util/error.h"
 #include "util/parallel.h"
 
@@ -42,8 +43,29 @@ namespace {
 void addBlock(HalfPixel& pixel, const PixelBlock& block)
 {
     for (int c = 0; c < 3; c++) pixel.sum[c].add(Fixed64x64::fromFloat(block.sum[c]));
-    pixel.sumY2.add(Fixed64x64::fromFloat(block.sumY2));
     pixel.samples += block.samplesDone;
+}
+
+/// Samples in a replicate times the squared luminance of its mean.
+///   luminance  of the sum of its samples
+Fixed64x64 squareOfReplicate(double luminance, uint32_t samples)
+{
+    return Fixed64x64::fromDouble(luminance * luminance / samples);
+}
+
+/// Adds a block's samples to the replicate that they belong to, as its square tells.
+///   before     samples that the replicate had
+///   luminance  of these
+void addToReplicate(HalfPixel& pixel, const PixelBlock& block, uint32_t before, double& luminance)
+{
+    if (block.samplesDone == 0) return;
+    if (before == 0) {
+        luminance = 0;
+    } else {
+        pixel.sumY2.subtract(squareOfReplicate(luminance, before));
+    }
+    luminance += 0.2126 * block.sum[0] + 0.7152 * block.sum[1] + 0.0722 * block.sum[2];
+    pixel.sumY2.add(squareOfReplicate(luminance, before + block.samplesDone));
 }
 
 Counters countersOf(const PixelBlock& block)
@@ -120,7 +142,9 @@ void Film::add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,
     assert(x <= width && tileWidth <= width - x && y <= height && tileHeight <= height - y);
     assert(blocks.size() == size_t{tileWidth} * tileHeight);
     assert(firstSample % BLOCK_SIZE == 0);
-    std::vector<HalfPixel>& target = half[firstSample / BLOCK_SIZE % 2];
+    const bool largeReplicates = replicateSize > BLOCK_SIZE;
+    std::vector<HalfPixel>& target = half[firstSample / blockOfReplicates(replicateSize) % 2];
+    if (largeReplicates) newestReplicate.resize(digest.size());
     std::vector<Counters> counted(tileHeight);
     parallelFor(tileHeight, threads, [&](size_t row) {
         for (uint32_t column = 0; column < tileWidth; column++) {
@@ -128,6 +152,11 @@ void Film::add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,
             assert(block.status == BLOCK_IDLE && block.samplesDone <= BLOCK_SIZE);
             const size_t pixel = (y + row) * width + x + column;
             addBlock(target[pixel], block);
+            if (largeReplicates) {
+                addToReplicate(target[pixel], block, firstSample % replicateSize, newestReplicate[pixel]);
+            } else {
+                target[pixel].sumY2.add(Fixed64x64::fromFloat(block.sumY2));
+            }
             digest[pixel] += block.digest;
             work[pixel].add({block.boxTests, block.primitiveTests});
             counted[row].add(countersOf(block));
@@ -156,13 +185,20 @@ void Film::add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,
     }
 }
 
+bool Film::operator==(const Film& other) const
+{
+    return width == other.width && height == other.height && half[0] == other.half[0] && half[1] == other.half[1] &&
+           digest == other.digest && work == other.work && counters == other.counters &&
+           halvesWeighEqually == other.halvesWeighEqually && replicateSize == other.replicateSize;
+}
+
 void Film::merge(const Film& other)
 {
     if (width != other.width || height != other.height) {
         throw badInput("films of {} x {} and {} x {} pixels cannot be merged", width, height,
                        other.width, other.height);
     }
-    if (varianceOverBlocks != other.varianceOverBlocks) {
+    if (replicateSize != other.replicateSize) {
         throw badInput("films of different samplers cannot be merged");
     }
     for (int h = 0; h < 2; h++) {

@@ -17,8 +17,11 @@ struct Fixed64x64 {
     uint64_t whole = 0;
     uint64_t fraction = 0;
 
-    static Fixed64x64 fromFloat(float value);  ///< value >= 0 and finite; bits below 2^-64 are cut
+    static Fixed64x64 fromFloat(float value);    ///< value >= 0; bits below 2^-64 are cut, what is too large saturates
+    static Fixed64x64 fromDouble(double value);  ///< the same
     void add(Fixed64x64 other);
+    /// Takes away what was added before; what is saturated stays so.
+    void subtract(Fixed64x64 other);
     double toDouble() const;
     bool operator==(const Fixed64x64&) const = default;
 };
@@ -26,7 +29,7 @@ struct Fixed64x64 {
 /// One half (A or B) of a pixel.
 struct HalfPixel {
     Fixed64x64 sum[3];  ///< radiance of all samples, RGB
-    Fixed64x64 sumY2;   ///< of the replicates (Film::varianceOverBlocks): samples in it times squared
+    Fixed64x64 sumY2;   ///< of the replicates (Film::replicateSize): samples in it times squared
                         ///< luminance of its mean
     uint32_t samples = 0;
     bool operator==(const HalfPixel&) const = default;
@@ -58,18 +61,22 @@ struct Film {
     explicit Film(uint32_t filmWidth = 0, uint32_t filmHeight = 0);
 
     uint32_t width, height;
-    std::vector<HalfPixel> half[2];  ///< A: even blocks, B: odd blocks; width * height each
+    std::vector<HalfPixel> half[2];  ///< A: even blocks (or larger replicates), B: odd; width * height each
     std::vector<uint32_t> digest;    ///< path digest of each pixel
     std::vector<PixelWork> work;     ///< of each pixel
     Counters counters;
     /// The picture is the mean of the halves' means rather than of all samples: where one half's samples
     /// decided how many the other has, any other weight would bias it (the rule `crossed`).
     bool halvesWeighEqually = false;
-    /// Replicates, whose spread tells how noisy the picture is: whole blocks of samples, which the sampler
-    /// `sobol` ties together, or single samples.
-    bool varianceOverBlocks = false;
+    /// Samples of a replicate: as many as the sampler ties together (replicateSizeOf). The spread of replicates tells how
+    /// noisy the picture is.
+    uint32_t replicateSize = 1;
+    /// Luminance of the samples of the newest replicate, of each pixel, where replicates are larger than blocks. Not
+    /// compared, nor merged: it is of no use once the replicate is whole, or the picture done.
+    std::vector<double> newestReplicate;
 
-    /// Adds the blocks of a tile whose samples start at `firstSample`, a multiple of BLOCK_SIZE.
+    /// Adds the blocks of a tile whose samples start at `firstSample`, a multiple of BLOCK_SIZE. Those of a replicate
+    /// follow each other, from its first one on.
     void add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight, uint32_t firstSample,
              std::span<const PixelBlock> blocks, unsigned threads = 1);
 
@@ -80,13 +87,14 @@ struct Film {
     /// Adds a film of other samples of the same picture. The result does not depend on the order.
     void merge(const Film& other);
 
-    bool operator==(const Film&) const = default;
+    bool operator==(const Film& other) const;
 };
 
 /// Memory that a film of that size takes [bytes].
-constexpr uint64_t filmBytes(uint64_t width, uint64_t height)
+constexpr uint64_t filmBytes(uint64_t width, uint64_t height, uint32_t replicateSize)
 {
-    return width * height * (2 * sizeof(HalfPixel) + sizeof(uint32_t) + sizeof(PixelWork));
+    const uint64_t newest = replicateSize > BLOCK_SIZE ? sizeof(double) : 0;
+    return width * height * (2 * sizeof(HalfPixel) + sizeof(uint32_t) + sizeof(PixelWork) + newest);
 }
 
 /// Mean radiance of each pixel: over all samples, or of both halves' means where these weigh equally and

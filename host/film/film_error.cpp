@@ -1,6 +1,6 @@
 #include "film/film_error.h"
 
-#include "film/sample_ranges.h"
+#include "film/replicates.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +14,10 @@ namespace {
 struct Luminances {
     double samples = 0, replicates = 0, sum = 0, sumOfSquares = 0;
 
-    void add(const HalfPixel& half, bool overBlocks)
+    void add(const HalfPixel& half, uint32_t replicateSize)
     {
         samples += half.samples;
-        replicates += overBlocks ? blocksIn(half.samples) : half.samples;
+        replicates += replicatesIn(half.samples, replicateSize);
         sum += 0.2126 * half.sum[0].toDouble() + 0.7152 * half.sum[1].toDouble() +
                0.0722 * half.sum[2].toDouble();
         sumOfSquares += half.sumY2.toDouble();
@@ -40,10 +40,10 @@ struct Luminances {
 PixelStatistics pixelStatistics(const Film& film, size_t pixel)
 {
     Luminances a, b;
-    a.add(film.half[0][pixel], film.varianceOverBlocks);
-    b.add(film.half[1][pixel], film.varianceOverBlocks);
+    a.add(film.half[0][pixel], film.replicateSize);
+    b.add(film.half[1][pixel], film.replicateSize);
     Luminances both = a;
-    both.add(film.half[1][pixel], film.varianceOverBlocks);
+    both.add(film.half[1][pixel], film.replicateSize);
     if (!film.halvesWeighEqually || !(a.samples > 0) || !(b.samples > 0))
         return {both.samples, both.replicates, both.mean(), both.varianceOfMean()};
     double variance = (a.varianceOfMean() + b.varianceOfMean()) / 4;

@@ -2,6 +2,7 @@
 
 #include "film/film_channels.h"
 #include "film/layers.h"
+#include "film/replicates.h"
 #include "util/error.h"
 #include "util/hash.h"
 
@@ -119,6 +120,11 @@ void readLabel(FilmFile& file)
             fmt::format("a number from {} to {}", ranges->back().end, MAX_SAMPLES));
     }
     file.label = {*ranges, static_cast<uint32_t>(*total)};
+    const uint32_t blockSize = blockOfReplicates(file.replicateSize());
+    if (!beginWithBlocks(*ranges, blockSize)) {
+        throw wrongAttribute(file, "sahl.sampleRanges",
+                             fmt::format("ranges that begin with blocks of {} samples, as sahl.varianceOver says", blockSize));
+    }
 
     const std::string& hash = file.attribute("sahl.filmHash");
     const auto value = numberIn(hash, 16);
@@ -213,6 +219,11 @@ const std::string& FilmFile::attribute(const std::string& attributeName) const
     return found == description.metadata.end() ? none : found->second;
 }
 
+uint32_t FilmFile::replicateSize() const
+{
+    return replicateSizeIn(attribute("sahl.varianceOver"));
+}
+
 std::vector<std::string> FilmFile::layers() const
 {
     std::vector<std::string> names;
@@ -245,8 +256,9 @@ void addFilmOf(const FilmFile& file, Film& film)
             "altered; render it again",
             file.name(), hashText(hash), hashText(file.hash));
     }
-    const uint32_t samplesA = samplesOfHalf(file.label.ranges, 0);
-    const uint32_t samplesB = samplesOfHalf(file.label.ranges, 1);
+    const uint32_t blockSize = blockOfReplicates(file.replicateSize());
+    const uint32_t samplesA = samplesOfHalf(file.label.ranges, 0, blockSize);
+    const uint32_t samplesB = samplesOfHalf(file.label.ranges, 1, blockSize);
     if (const auto pixel = pixelWithOtherCounts(planes.words(), samplesA, samplesB)) {
         throw badInput(
             "{}: pixel {}, {} has not the {} and {} samples in halves A and B that the range "

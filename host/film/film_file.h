@@ -29,6 +29,7 @@ struct FilmFile {
 
     std::string name() const { return path.string(); }
     const std::string& attribute(const std::string& name) const;  ///< "" where there is none
+    uint32_t replicateSize() const;                               ///< of its sampler
     std::vector<std::string> layers() const;  ///< names of the channels of what camera rays met
 };
 

@@ -9,7 +9,7 @@
 namespace sahl {
 
 /// A pixel that is at least twice as bright as what is around it, and to which a single replicate
-/// (a sample, or a block of them: Film::varianceOverBlocks) gave at least a quarter of its light
+/// (a sample, or a block of them: Film::replicateSize) gave at least a quarter of its light
 /// and four times its due. So a light, a highlight or an edge that samples find again and again is
 /// none.
 struct Firefly {

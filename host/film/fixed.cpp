@@ -29,6 +29,22 @@ Fixed64x64 Fixed64x64::fromFloat(float value)
     return LARGEST;
 }
 
+Fixed64x64 Fixed64x64::fromDouble(double value)
+{
+    const uint64_t bits = std::bit_cast<uint64_t>(value);
+    assert(bits <= 0x7ff0000000000000u || bits == uint64_t{1} << 63);  // not negative, not NaN
+    const uint64_t exponent = bits >> 52 & 0x7ffu;
+    const uint64_t mantissa = (bits & 0xfffffffffffffu) | (exponent > 0 ? uint64_t{1} << 52 : 0);
+    // value = mantissa * 2^(e - 1075), with e = 1 for denormals; in units of 2^-64:
+    const int shift = static_cast<int>(exponent > 0 ? exponent : 1u) - 1075 + 64;
+    if (shift <= -53) return {};
+    if (shift < 0) return {0, mantissa >> -shift};
+    if (shift == 0) return {0, mantissa};
+    if (shift < 64) return {mantissa >> (64 - shift), mantissa << shift};
+    if (shift <= 64 + 11) return {mantissa << (shift - 64), 0};
+    return LARGEST;
+}
+
 void Fixed64x64::add(Fixed64x64 other)
 {
     fraction += other.fraction;
@@ -36,6 +52,14 @@ void Fixed64x64::add(Fixed64x64 other)
     const bool overflow = other.whole > ALL_ONES - whole || whole + other.whole > ALL_ONES - carry;
     whole += other.whole + carry;
     if (overflow) *this = LARGEST;
+}
+
+void Fixed64x64::subtract(Fixed64x64 other)
+{
+    if (*this == LARGEST) return;
+    const uint64_t borrow = fraction < other.fraction ? 1 : 0;
+    fraction -= other.fraction;
+    whole -= other.whole + borrow;
 }
 
 double Fixed64x64::toDouble() const

@@ -210,7 +210,7 @@ void requireMergeMemory(const FilmFile& file)
 {
     const uint64_t words = filmChannelNames().size() + 2 * file.layers().size() + 12;
     const uint64_t pixels = uint64_t{file.description.width} * file.description.height;
-    requireMemory(filmBytes(file.description.width, file.description.height) +
+    requireMemory(filmBytes(file.description.width, file.description.height, file.replicateSize()) +
                       pixels * words * sizeof(uint32_t),
                   fmt::format("merging pictures of {} x {} pixels", file.description.width,
                               file.description.height),
@@ -240,7 +240,7 @@ MergedFilm mergeFilms(std::vector<FilmFile> files, bool allowGaps)
     merged.metadata = metadataOfAll(files, merged.label);
     merged.place = first.place;
     merged.film = Film(first.width, first.height);
-    merged.film.varianceOverBlocks = files[0].attribute("sahl.varianceOver") == "blocks";
+    merged.film.replicateSize = files[0].replicateSize();
     for (const FilmFile& file : files) addFilmOf(file, merged.film);
     merged.firstHits = readFirstHits(files[0]);
     return merged;

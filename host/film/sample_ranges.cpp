@@ -90,22 +90,27 @@ uint32_t samplesIn(const SampleRanges& ranges)
     return samplesOfHalf(ranges, 0) + samplesOfHalf(ranges, 1);
 }
 
-uint32_t samplesOfHalf(const SampleRanges& ranges, int half)
+uint32_t samplesOfHalf(const SampleRanges& ranges, int half, uint32_t blockSize)
 {
     // Of the samples below n: whole pairs of blocks, and what is left over.
-    auto below = [half](uint32_t n) {
-        const uint32_t rest = n % (2 * BLOCK_SIZE);
-        const uint32_t restOfA = std::min(rest, BLOCK_SIZE);
-        return n / (2 * BLOCK_SIZE) * BLOCK_SIZE + (half == 0 ? restOfA : rest - restOfA);
+    auto below = [half, blockSize](uint32_t n) {
+        const uint32_t rest = n % (2 * blockSize);
+        const uint32_t restOfA = std::min(rest, blockSize);
+        return n / (2 * blockSize) * blockSize + (half == 0 ? restOfA : rest - restOfA);
     };
     uint32_t samples = 0;
     for (const SampleRange& range : ranges) samples += below(range.end) - below(range.first);
     return samples;
 }
 
-uint32_t blocksIn(uint32_t samples)
+bool beginWithBlocks(const SampleRanges& ranges, uint32_t blockSize)
 {
-    return samples / BLOCK_SIZE + (samples % BLOCK_SIZE != 0 ? 1 : 0);
+    return std::ranges::all_of(ranges, [=](const SampleRange& range) { return range.first % blockSize == 0; });
+}
+
+uint32_t blocksIn(uint32_t samples, uint32_t blockSize)
+{
+    return samples / blockSize + (samples % blockSize != 0 ? 1 : 0);
 }
 
 uint32_t blocksIn(const SampleRanges& ranges)
@@ -115,12 +120,12 @@ uint32_t blocksIn(const SampleRanges& ranges)
     return blocks;
 }
 
-SampleRange shardOf(uint32_t index, uint32_t count, uint32_t total)
+SampleRange shardOf(uint32_t index, uint32_t count, uint32_t total, uint32_t blockSize)
 {
-    const uint64_t blocks = blocksIn(total);
+    const uint64_t blocks = blocksIn(total, blockSize);
     assert(index < count && count <= blocks);
     auto border = [&](uint64_t part) {
-        const auto sample = static_cast<uint32_t>(part * blocks / count * BLOCK_SIZE);
+        const auto sample = static_cast<uint32_t>(part * blocks / count * blockSize);
         return std::min(sample, total);
     };
     return {border(index), border(uint64_t{index} + 1)};

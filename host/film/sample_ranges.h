@@ -39,16 +39,19 @@ SampleRanges unionOf(SampleRanges ranges);
 /// Samples of 0 ... total-1 that are in none of the ranges.
 SampleRanges gapsIn(const SampleRanges& ranges, uint32_t total);
 
-/// Samples of a pixel, and of one half of it (0: A, even blocks; 1: B).
+/// Samples of a pixel, and of one half of it (0: A, even blocks of `blockSize` samples; 1: B).
 uint32_t samplesIn(const SampleRanges& ranges);
-uint32_t samplesOfHalf(const SampleRanges& ranges, int half);
+uint32_t samplesOfHalf(const SampleRanges& ranges, int half, uint32_t blockSize = BLOCK_SIZE);
+
+/// Whether all begin with a block of so many samples. (They end with one, or where some picture did.)
+bool beginWithBlocks(const SampleRanges& ranges, uint32_t blockSize);
 
 /// Blocks of a pixel, begun ones included.
 uint32_t blocksIn(const SampleRanges& ranges);
-uint32_t blocksIn(uint32_t samples);
+uint32_t blocksIn(uint32_t samples, uint32_t blockSize = BLOCK_SIZE);
 
 /// Part `index` of `count` of a picture with `total` samples a pixel: blocks index*B/count up to
 /// (index+1)*B/count of its B blocks. count is at most B, so no part is empty.
-SampleRange shardOf(uint32_t index, uint32_t count, uint32_t total);
+SampleRange shardOf(uint32_t index, uint32_t count, uint32_t total, uint32_t blockSize = BLOCK_SIZE);
 
 }  // namespace sahl

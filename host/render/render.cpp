@@ -1,6 +1,7 @@
 #include "render/render.h"
 
 #include "film/film_error.h"
+#include "film/replicates.h"
 #include "util/interrupt.h"
 #include "util/parallel.h"
 
@@ -136,7 +137,7 @@ RenderResult renderPicture(Device& device, const RenderPlan& plan,
     };
 
     RenderResult result = {Film(plan.width, plan.height), 0, false, 0};
-    result.film.varianceOverBlocks = device.samplerKind() == SAMPLER_SOBOL;
+    result.film.replicateSize = replicateSizeOf(device.samplerKind());
     const std::string kind = device.info().kind;
     FilmAdder adder(result.film, plan.threads, kind != "cpu" && kind != "software");
     RenderProgress progress;
@@ -144,6 +145,7 @@ RenderResult renderPicture(Device& device, const RenderPlan& plan,
     double samplesDone = 0;
     std::vector<TileRequest> tiles = tilesOf(plan.width, plan.height, plan.tileSize, device.maxTilePixels());
     Pass pass;
+    std::optional<RenderResult> whole;  // the last one that ended with a replicate
     for (uint32_t done = 0; done < plan.sampleCount && !result.interrupted;) {
         uint32_t count = std::min(BLOCK_SIZE, plan.sampleCount - done);
         pass.resize(tiles.size());
@@ -172,6 +174,11 @@ RenderResult renderPicture(Device& device, const RenderPlan& plan,
         if (result.interrupted) break;
         done += count;
         result.passes++;
+        result.endsInReplicate = done % result.film.replicateSize != 0 && done < plan.sampleCount;
+        if (plan.wholeReplicates && result.film.replicateSize > BLOCK_SIZE && !result.endsInReplicate) {
+            adder.wait();
+            whole = result;
+        }
         progress.samplesDone = done;
         progress.relativeError = [&adder, &result, error = std::optional<double>()]() mutable {
             adder.wait();
@@ -188,6 +195,11 @@ RenderResult renderPicture(Device& device, const RenderPlan& plan,
         }
     }
     adder.wait();
+    if (whole && result.endsInReplicate) {
+        result.film = std::move(whole->film);
+        result.passes = whole->passes;
+        result.endsInReplicate = false;
+    }
     result.seconds = secondsSoFar();
     return result;
 }

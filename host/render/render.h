@@ -17,6 +17,7 @@ struct RenderPlan {
     uint32_t left = 0, top = 0;      ///< of the window, in the scene's full picture [pixels]
     uint32_t maxPasses = 0;          ///< after which to stop; 0: when all samples are there
     double timeLimit = 0;            ///< after which no pass begins [s]; 0: none. One pass always runs
+    bool wholeReplicates = false;    ///< the film is to be merged: what is stopped ends with a whole one, where there is one
     unsigned threads = 1;            ///< of the host, which adds up what the device gives
 };
 
@@ -47,6 +48,7 @@ struct RenderResult {
     double seconds = 0;
     AdaptiveOutcome adaptive = {};  ///< of renderAdaptive() alone
     StoppedBy stoppedBy = StoppedBy::nothing;
+    bool endsInReplicate = false;  ///< samples are missing of the newest one: the film is not to be merged
 };
 
 /// Whether the plan ends a render after `passes` passes and `seconds` seconds.

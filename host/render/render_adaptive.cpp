@@ -1,6 +1,7 @@
 #include "render/render_adaptive.h"
 
 #include "device/adaptive_schedule.h"
+#include "film/replicates.h"
 #include "render/adaptive_passes.h"
 #include "util/error.h"
 #include "util/interrupt.h"
@@ -42,7 +43,7 @@ public:
     {
         result_.adaptive.pixels = uint64_t{plan.width} * plan.height;
         result_.film.halvesWeighEqually = rule.rule == ADAPTIVE_CROSSED;
-        result_.film.varianceOverBlocks = device.samplerKind() == SAMPLER_SOBOL;
+        result_.film.replicateSize = replicateSizeOf(device.samplerKind());
         samplesMissing_ = double(result_.adaptive.pixels) * rule.maxSamples;
     }
 

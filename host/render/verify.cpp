@@ -1,5 +1,6 @@
 #include "render/verify.h"
 
+#include "film/replicates.h"
 #include "render/render.h"
 #include "util/interrupt.h"
 
@@ -106,8 +107,8 @@ VerifyResult verifyDevice(Device& device, Device& reference, const DeviceScene& 
     VerifyResult result;
     result.deviceFilm = Film(width, height);
     result.referenceFilm = Film(width, height);
-    result.deviceFilm.varianceOverBlocks = scene.frame.samplerKind == SAMPLER_SOBOL;
-    result.referenceFilm.varianceOverBlocks = result.deviceFilm.varianceOverBlocks;
+    result.deviceFilm.replicateSize = replicateSizeOf(scene.frame.samplerKind);
+    result.referenceFilm.replicateSize = result.deviceFilm.replicateSize;
     device.setScene(scene);
     reference.setScene(scene);
 

@@ -1,6 +1,7 @@
 // A device against the reference under adaptive sampling: every sum, every count, every decision.
 
 #include "device/adaptive_schedule.h"
+#include "film/replicates.h"
 #include "render/adaptive_passes.h"
 #include "render/render.h"
 #include "render/verify.h"
@@ -91,8 +92,8 @@ VerifyResult verifyAdaptive(Device& device, Device& reference, const DeviceScene
     reference.setScene(scene);
     result.deviceFilm.halvesWeighEqually = rule.rule == ADAPTIVE_CROSSED;
     result.referenceFilm.halvesWeighEqually = rule.rule == ADAPTIVE_CROSSED;
-    result.deviceFilm.varianceOverBlocks = scene.frame.samplerKind == SAMPLER_SOBOL;
-    result.referenceFilm.varianceOverBlocks = result.deviceFilm.varianceOverBlocks;
+    result.deviceFilm.replicateSize = replicateSizeOf(scene.frame.samplerKind);
+    result.referenceFilm.replicateSize = result.deviceFilm.replicateSize;
     Side ours = {device, result.deviceSeconds, result.deviceFilm};
     Side theirs = {reference, result.referenceSeconds, result.referenceFilm};
     std::optional<FirstPixel> first;

@@ -5,6 +5,7 @@
 #include "scene/json_fields.h"
 #include "scene/phong.h"
 #include "scene/probe.h"
+#include "scene/sampling.h"
 #include "scene/scene_reading.h"
 
 #include <cfloat>
@@ -61,7 +62,7 @@ Json describe(const RenderSettings& settings)
             {"maxBounces", settings.maxBounces},
             {"seed", settings.seed},
             {"integrator", settings.integrator == INTEGRATOR_PHONG ? "phong" : "path"},
-            {"sampler", settings.samplerKind == SAMPLER_SOBOL ? "sobol" : "independent"},
+            {"sampler", samplerName(settings.samplerKind)},
             {"rouletteDepth", settings.rouletteDepth},
             {"clampIndirect", double{settings.clampIndirect}},
             {"lightSampling", LIGHT_SAMPLING.begin()[settings.lightSampling]},
@@ -117,9 +118,7 @@ RenderSettings readSettings(const JsonObject& object)
     settings.width = object.uint("width", 0, 1, MAX_PICTURE_SIDE);
     settings.height = object.uint("height", 0, 1, MAX_PICTURE_SIDE);
     settings.spp = object.uint("samplesPerPixel", 0, 1, MAX_SAMPLES);
-    settings.samplerKind = object.choice("sampler", {"independent", "sobol"}) == "sobol"
-                               ? SAMPLER_SOBOL
-                               : SAMPLER_INDEPENDENT;
+    settings.samplerKind = samplerNamed(object.choice("sampler", SAMPLERS));
     settings.rouletteDepth = object.uint("rouletteDepth", NO_ROULETTE, 0, ANY_UINT);
     settings.clampIndirect = static_cast<float>(object.number("clampIndirect", 0, {0, FLT_MAX}));
     const std::string lightSampling = object.choice("lightSampling", LIGHT_SAMPLING);

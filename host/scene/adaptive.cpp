@@ -29,6 +29,11 @@ std::string wrongBounds(const RenderSettings& settings, const char* least, const
         return "the rule report looks at single samples, and the sampler sobol ties 8 of them together; take "
                "crossed or joint, or the sampler independent";
     }
+    if (rule.rule != ADAPTIVE_NONE && settings.samplerKind == SAMPLER_SOBOL64) {
+        return fmt::format("the rule {} takes 8 samples at a time, and the sampler sobol64 ties 64 of them together; take "
+                           "the sampler sobol or independent",
+                           adaptiveRuleName(rule.rule));
+    }
     if (rule.minSamples > rule.maxSamples) {
         return fmt::format("{} is {}, above {}, which is {}", least, rule.minSamples, most, rule.maxSamples);
     }

@@ -4,11 +4,16 @@
 
 namespace sahl {
 
-static_assert(SAMPLER_INDEPENDENT == 0 && SAMPLER_SOBOL == 1);
+static_assert(SAMPLER_INDEPENDENT == 0 && SAMPLER_SOBOL == 1 && SAMPLER_SOBOL64 == 2);
 
 const char* samplerName(uint32_t samplerKind)
 {
     return std::data(SAMPLERS)[samplerKind];
+}
+
+uint32_t samplerNamed(const std::string& name)
+{
+    return static_cast<uint32_t>(std::ranges::find(SAMPLERS, name) - SAMPLERS.begin());
 }
 
 static_assert(LIGHTS_MIS == 0 && LIGHTS_ONLY == 1 && LIGHTS_BSDF_ONLY == 2);
@@ -20,9 +25,7 @@ const char* lightSamplingName(uint32_t lightSampling)
 
 void readSampling(const JsonObject& integrator, RenderSettings& settings)
 {
-    const std::string name = integrator.choice("sampler", SAMPLERS);
-    settings.samplerKind =
-        static_cast<uint32_t>(std::ranges::find(SAMPLERS, name) - SAMPLERS.begin());
+    settings.samplerKind = samplerNamed(integrator.choice("sampler", SAMPLERS));
     settings.rouletteDepth = NO_ROULETTE;
     if (integrator.has("rouletteDepth"))
         settings.rouletteDepth = integrator.uint("rouletteDepth", 0, 0, MAX_ROULETTE_DEPTH);

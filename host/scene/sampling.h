@@ -11,10 +11,13 @@ constexpr uint32_t MAX_ROULETTE_DEPTH = 65535;
 constexpr Range CLAMP_RANGE = {1e-20, 1e18};  ///< of luminance [W m^-2 sr^-1]
 
 /// All samplers, in the order of SAMPLER_*.
-constexpr std::initializer_list<const char*> SAMPLERS = {"independent", "sobol"};
+constexpr std::initializer_list<const char*> SAMPLERS = {"independent", "sobol", "sobol64"};
 
-/// "independent" or "sobol".
+/// "independent", "sobol" or "sobol64".
 const char* samplerName(uint32_t samplerKind);
+
+/// SAMPLER_* of one of these names.
+uint32_t samplerNamed(const std::string& name);
 
 /// In the order of LIGHTS_*.
 constexpr std::initializer_list<const char*> LIGHT_SAMPLINGS = {"mis", "lights", "bsdf"};

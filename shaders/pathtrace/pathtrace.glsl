@@ -25,6 +25,7 @@ CONST float RAY_INFINITY = 3.0e38f;
 #include "pathtrace/exact.glsl"
 #include "pathtrace/math.glsl"
 #include "pathtrace/sobol.glsl"
+#include "pathtrace/sobol64.glsl"
 #include "pathtrace/rng.glsl"
 #include "pathtrace/sampling.glsl"
 #include "pathtrace/camera.glsl"

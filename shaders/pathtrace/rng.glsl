@@ -1,5 +1,5 @@
 // Random numbers as a function of (seed, pixel, sample, dimension): no state, integers only. How samples of
-// a pixel go together is in sobol.glsl.
+// a pixel go together is in sobol.glsl and sobol64.glsl.
 
 // Where a path needs numbers. Each vertex has its own: 4 for its BSDF, of which one chooses between probe
 // and lights, then 4 for a light and roulette.
@@ -36,10 +36,16 @@ float unitFloat(uint bits) { return float(bits >> 8u) * 5.96046448e-08f; }
 /// 32 random bits for each of a row of four dimensions, by the scene's sampler.
 uvec4 randomBits4(uint pixel, uint sampleIndex, uint dimension)
 {
-    if (!HAS_SOBOL || (HAS_INDEPENDENT && frame.samplerKind == SAMPLER_INDEPENDENT))
+    if (!HAS_BLOCKS || (HAS_INDEPENDENT && frame.samplerKind == SAMPLER_INDEPENDENT))
         return hash4(pixel, sampleIndex, dimension, frame.seed);
-    // There are fewer than 2^24 samples, so the highest bits tell the three kinds of numbers apart: pictures of
-    // both samplers have no noise in common. BLOCK_SIZE is 8.
+    // There are fewer than 2^24 samples, so the highest bits tell the kinds of numbers apart: pictures of different samplers
+    // have no noise in common.
+    if (HAS_SOBOL64 && (!HAS_SOBOL || frame.samplerKind == SAMPLER_SOBOL64)) {
+        uvec4 ofSample = hash4(pixel, sampleIndex | 0x60000000u, dimension, frame.seed);
+        uvec4 ofBlock = hash4(pixel, (sampleIndex >> 6u) | 0xc0000000u, dimension, frame.seed);
+        return net64Bits4(ofBlock, ofSample, sampleIndex & 63u);
+    }
+    // BLOCK_SIZE is 8.
     uvec4 ofSample = hash4(pixel, sampleIndex | 0x40000000u, dimension, frame.seed);
     uvec4 ofBlock = hash4(pixel, (sampleIndex >> 3u) | 0x80000000u, dimension, frame.seed);
     return netBits4(ofBlock, ofSample, sampleIndex & 7u);

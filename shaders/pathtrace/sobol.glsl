@@ -32,16 +32,18 @@ uint product8(uint a, uint b)
 /// they would be if pairs that differ in a certain digit stayed together in all of them.
 uint shuffled8(uint index, uint factor, uint offset) { return product8(index, factor) ^ offset; }
 
-/// The point's three digits, each flipped or not as the digits above it decide.
+/// Three digits, each flipped or not as the digits above it decide.
 ///   flips  7 random bits: 1 for the first digit, 2 for the second, 4 for the third
-uint scrambledDigits(uint net, uint point, uint flips)
+uint flippedDigits(uint digits, uint flips)
 {
-    uint digits = (net >> (3u * point)) & 7u;
     uint first = flips & 1u;
     uint second = (flips >> (1u + (digits >> 2u))) & 1u;
     uint third = (flips >> (3u + (digits >> 1u))) & 1u;
     return digits ^ ((first << 2u) | (second << 1u) | third);
 }
+
+/// The point's three digits, flipped.
+uint scrambledDigits(uint net, uint point, uint flips) { return flippedDigits((net >> (3u * point)) & 7u, flips); }
 
 /// 32 random bits for each of four dimensions: numbers in [0, 1) as binary fractions.
 ///   ofBlock   random bits that all samples of the block share

@@ -295,7 +295,8 @@ GPU_STRUCT_SIZE(Probe, 64);
 GPU_FIELD(Probe, firstTexel, 28);
 
 SHARED_CONST uint SAMPLER_INDEPENDENT = 0u;
-SHARED_CONST uint SAMPLER_SOBOL = 1u;
+SHARED_CONST uint SAMPLER_SOBOL = 1u;    // blocks of 8 samples go together
+SHARED_CONST uint SAMPLER_SOBOL64 = 2u;  // blocks of 64
 
 SHARED_CONST uint NO_ROULETTE = 0xffffffffu;
 

@@ -84,5 +84,38 @@ TEST_F(SamplingBits, ofPartsOfDeviceAndReferenceAreThoseOfOneRun)
     EXPECT_TRUE(mergeFilms(files, false).film == reference());
 }
 
+/// The same by blocks of 64; the last one is not full.
+const PreparedScene& sceneBySobol64()
+{
+    static const PreparedScene prepared = [] {
+        Scene scene = builtInScene(smallPicture(12, 9, 150));
+        scene.settings.samplerKind = SAMPLER_SOBOL64;
+        return prepareScene(std::move(scene), BvhBuild::sweep, 2);
+    }();
+    return prepared;
+}
+
+TEST_F(SamplingBits, bySobol64AreEqualOnTheDeviceAndTheReference_inOneGoAndInParts)
+{
+    const TemporaryFolder folder;
+    const auto cpu = makeCpuDevice({});
+    const auto device = openFirstDevice();
+    const Film one = renderFilm(*cpu, sceneBySobol64());
+    EXPECT_EQ(one.replicateSize, 64u);
+    EXPECT_EQ(one.half[0][0].samples, 64u + 22u);
+    EXPECT_TRUE(renderFilm(*device, sceneBySobol64()) == one);
+    std::vector<FilmFile> files;
+    for (uint32_t i = 0; i < 2; i++) {
+        const SampleRange range = shardOf(i, 2, 150, 64);
+        FilmFileParts parts;
+        parts.film = renderFilm(i == 1 ? *device : *cpu, sceneBySobol64(), range.first, range.end - range.first);
+        parts.metadata = {{"sahl.version", "1"}, {"sahl.varianceOver", "blocks of 64"}};
+        parts.fromFilm({{range}, 150});
+        writeFileAtomically(folder.path / std::to_string(i), parts.encode());
+        files.push_back(openFilmFile(folder.path / std::to_string(i)));
+    }
+    EXPECT_TRUE(mergeFilms(files, false).film == one);
+}
+
 }  // namespace
 }  // namespace sahl::testing

@@ -93,6 +93,7 @@ TEST_F(Merge, shardsOfOtherKindsOfPictures_areTheFileOfOneRun)
                                {"--spp", "24", "--max-bounces", "0", "--tile", "5"},
                                {"--spp", "20", "--sampler", "sobol", "--roulette-depth", "1",
                                 "--clamp-indirect", "0.05"},
+                               {"--spp", "150", "--sampler", "sobol64"},
                                {"--spp", "24", "--keep-film"}};
     for (const Arguments& kind : kinds) {
         renderShards(kind, 3);

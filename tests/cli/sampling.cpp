@@ -126,6 +126,48 @@ TEST_F(Sampling, mistakesAreRefusedWithTheReason)
         0);
 }
 
+TEST_F(Sampling, bySobol64TiesBlocksOf64AndSaysSo)
+{
+    EXPECT_EQ(metadataAfter({"--sampler", "sobol64"})["sahl.varianceOver"], "blocks of 64");
+    EXPECT_EQ(metadataAfter({"--sampler", "sobol64"})["sahl.sampler"], "sobol64");
+    expectRefused(render({"--sampler", "sobol64", "--adaptive", "crossed"}), 2,
+                  "the rule crossed takes 8 samples at a time, and the sampler sobol64 ties 64 of them together");
+    const Arguments film = {"--sampler", "sobol64", "--spp", "128", "--keep-film"};
+    auto with = [&film](Arguments more) {
+        more.insert(more.begin(), film.begin(), film.end());
+        return more;
+    };
+    expectRefused(render(with({"--sample-range", "8:64"})), 2, "8 is inside a block of 64 samples, which cannot be torn apart");
+    expectRefused(render(with({"--shard", "0/3"})), 2, "128 samples are 2 blocks of 64, so there are at most 2 shards");
+    // Of one block nothing tells how noisy it is.
+    ASSERT_EQ(render({"--spp", "64", "--sampler", "sobol64", "-o", "a.exr"}).exitCode, 0);
+    ASSERT_EQ(render({"--spp", "64", "--sampler", "sobol64", "--seed", "1", "-o", "b.exr"}).exitCode, 0);
+    EXPECT_HAS(sahl({"compare", "a.exr", "b.exr"}, here()).out, "more than 64 by sobol64");
+}
+
+TEST_F(Sampling, whatIsStoppedInABlockOf64KeepsTheFilmOfWholeOnes)
+{
+    const Arguments picture = {"--sampler", "sobol64", "--spp", "192", "--keep-film", "-o"};
+    auto rendered = [&](const std::string& file, Arguments more) {
+        more.insert(more.begin(), picture.begin(), picture.end());
+        more.insert(more.begin() + std::ptrdiff_t(picture.size()), file);
+        const RunResult result = render(more);
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        return result.err;
+    };
+    rendered("one.exr", {});
+    EXPECT_HAS(rendered("some.exr", {"--passes", "19"}), "--passes 16 makes the same picture again");
+    EXPECT_EQ(describeExr(folder / "some.exr").metadata["sahl.sampleRanges"], "0:128");
+    EXPECT_EQ(describeExr(folder / "some.exr").metadata["sahl.stopped"], "passes");
+    rendered("rest.exr", {"--sample-range", "128:192"});
+    ASSERT_EQ(sahl({"merge", "rest.exr", "some.exr", "--keep-film", "-o", "merged.exr"}, here()).exitCode, 0);
+    EXPECT_TRUE(textOf(folder / "merged.exr") == textOf(folder / "one.exr"));
+
+    EXPECT_HAS(rendered("few.exr", {"--passes", "3"}), "the 24 samples end inside a block of 64");
+    EXPECT_EQ(describeExr(folder / "few.exr").metadata["sahl.sampleCount"], "24");
+    EXPECT_FALSE(describeExr(folder / "few.exr").metadata.contains("sahl.sampleRanges"));
+}
+
 TEST_F(Sampling, partsOfOtherSamplersAreNotMerged)
 {
     ASSERT_EQ(render({"--spp", "16", "--sample-range", "0:8", "-o", "a.exr"}).exitCode, 0);

@@ -4,6 +4,8 @@
 #include "compare/noise.h"
 #include "film/film_error.h"
 #include "film/layers.h"
+#include "film/replicates.h"
+#include "scene/sampling.h"
 #include "statistical/lamp_scene.h"
 #include "support/adaptive_scenes.h"
 
@@ -94,15 +96,16 @@ TEST(SobolErrors, areThoseThatManySeedsShow)
 {
     const auto device = makeCpuDevice({});
     constexpr uint32_t SEEDS = 256;
+    const std::pair<uint32_t, uint32_t> counts[] = {{SAMPLER_SOBOL, 16}, {SAMPLER_SOBOL, 64}, {SAMPLER_SOBOL64, 128}};
     for (const char* name : {"clay", "built-in", "lamp"}) {
-        for (uint32_t spp : {16u, 64u}) {
-            PreparedScene scene = name[0] == 'c'   ? prepared(clayScene(12, 0), SAMPLER_SOBOL)
-                                  : name[0] == 'b' ? builtIn(12, SAMPLER_SOBOL)
-                                                   : prepared(lampScene(12, 12, 0), SAMPLER_SOBOL);
+        for (auto [sampler, spp] : counts) {
+            PreparedScene scene = name[0] == 'c'   ? prepared(clayScene(12, 0), sampler)
+                                  : name[0] == 'b' ? builtIn(12, sampler)
+                                                   : prepared(lampScene(12, 12, 0), sampler);
             const Spread s = spreadOf(*device, std::move(scene), spp, SEEDS);
-            std::printf("%-9s %3u spp: stated variance / that of %u seeds: %.3f +- %.3f; of the "
+            std::printf("%-9s %-7s %3u spp: stated variance / that of %u seeds: %.3f +- %.3f; of the "
                         "frame %.2f\n",
-                        name, spp, SEEDS, s.stated / s.seen, s.error / s.seen,
+                        name, samplerName(sampler), spp, SEEDS, s.stated / s.seen, s.error / s.seen,
                         s.frameStated / s.frameSeen);
             EXPECT_NEAR(s.stated, s.seen, 4 * s.error) << name;
             EXPECT_LT(s.error, 0.1 * s.seen);
@@ -134,7 +137,7 @@ TEST(SobolErrors, ofCrossedPicturesAreThoseThatManySeedsShow)
         scene.scene.settings.seed = seed;
         const Film film =
             renderAdaptiveFilm(*device, scene, targetRule(ADAPTIVE_CROSSED, 0.05f, 64, 512)).film;
-        EXPECT_TRUE(film.varianceOverBlocks);
+        EXPECT_EQ(film.replicateSize, BLOCK_SIZE);
         double frame = 0;
         for (size_t i = 0; i < film.half[0].size(); i++) {
             const PixelStatistics pixel = pixelStatistics(film, i);
@@ -198,6 +201,16 @@ TEST(Sobol, isQuieterThanIndependentSamplesAndConvergesToTheSame)
                         spp, independent, sobol, sobol / independent);
             EXPECT_LT(sobol, c.atMost * independent) << c.name;
         }
+        // And larger blocks are quieter still.
+        double inEights = 0, in64 = 0;
+        for (uint32_t seed = 0; seed < 8; seed++) {
+            c.sobol.scene.settings.samplerKind = SAMPLER_SOBOL;
+            inEights += relMse(renderSeed(*device, c.sobol, seed, 64), reference) / 8;
+            c.sobol.scene.settings.samplerKind = SAMPLER_SOBOL64;
+            in64 += relMse(renderSeed(*device, c.sobol, seed, 64), reference) / 8;
+        }
+        std::printf("%-9s 64 spp: relMSE sobol64 %.5f, %.2f of sobol's\n", c.name, in64, in64 / inEights);
+        EXPECT_LT(in64, 0.9 * inEights) << c.name;
         const Film film = renderSeed(*device, c.sobol, 2000, 1024);
         double difference = 0, variance = 0;
         for (size_t i = 0; i < film.half[0].size(); i++) {
@@ -214,7 +227,7 @@ LoadedPicture pictureOf(const Film& film)
 {
     LoadedPicture picture;
     picture.image = meanImage(film);
-    picture.metadata["sahl.varianceOver"] = film.varianceOverBlocks ? "blocks" : "samples";
+    picture.metadata["sahl.varianceOver"] = varianceOver(film.replicateSize);
     for (ImageChannel& channel : statisticsChannels(film)) {
         if (channel.name == "variance.Y") picture.variance = std::move(channel.values);
         if (channel.name == "samples.Y") picture.samples = std::move(channel.values);

@@ -18,7 +18,7 @@ void addSamples(Film& film, uint32_t x, uint32_t y, const std::vector<float>& va
             block.samplesDone++;
         }
         block.sum = vec3(sum);
-        if (film.varianceOverBlocks) block.sumY2 = sum * sum / float(block.samplesDone);
+        if (film.replicateSize == BLOCK_SIZE) block.sumY2 = sum * sum / float(block.samplesDone);
         film.add(x, y, 1, 1, first, {&block, 1});
     }
 }
@@ -34,7 +34,7 @@ std::vector<float> samplesOf(size_t count, float usual, float brightest)
 Film filmAround(const std::vector<float>& middle, bool overBlocks = false)
 {
     Film film(5, 5);
-    film.varianceOverBlocks = overBlocks;
+    film.replicateSize = overBlocks ? BLOCK_SIZE : 1;
     for (uint32_t i = 0; i < 25; i++) {
         if (i != 12) addSamples(film, i % 5, i / 5, std::vector<float>(middle.size(), 1));
     }

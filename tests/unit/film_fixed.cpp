@@ -44,6 +44,39 @@ TEST(Fixed64x64, fromFloat_givesKnownValues)
     EXPECT_EQ(Fixed64x64::fromFloat(0x1.fffffep63f), (Fixed64x64{uint64_t{0xffffff} << 40, 0}));
 }
 
+TEST(Fixed64x64, fromDouble_isThatOfFloatAndKeepsWhatFloatCuts)
+{
+    std::mt19937 random(4);
+    for (int i = 0; i < 10000; i++) {
+        const float value = randomFloat(random, -100, 70);
+        EXPECT_EQ(Fixed64x64::fromDouble(double{value}), Fixed64x64::fromFloat(value)) << value;
+    }
+    EXPECT_EQ(Fixed64x64::fromDouble(0x1.0000000000001p0), (Fixed64x64{1, uint64_t{1} << 12}));
+    EXPECT_EQ(Fixed64x64::fromDouble(0x1.fffffffffffffp63), (Fixed64x64{~uint64_t{0} << 11, 0}));
+    EXPECT_EQ(Fixed64x64::fromDouble(0x1.8p-64), (Fixed64x64{0, 1}));
+    EXPECT_EQ(Fixed64x64::fromDouble(0x1.fffffffffffffp-65), (Fixed64x64{}));
+    EXPECT_EQ(Fixed64x64::fromDouble(0x1p64), LARGEST);
+    EXPECT_EQ(Fixed64x64::fromDouble(INFINITY), LARGEST);
+    EXPECT_EQ(Fixed64x64::fromDouble(0x1p-1074), (Fixed64x64{}));
+}
+
+TEST(Fixed64x64, subtract_takesAwayWhatWasAddedUnlessTheSumIsSaturated)
+{
+    std::mt19937 random(3);
+    for (int i = 0; i < 1000; i++) {
+        const Fixed64x64 first = Fixed64x64::fromFloat(randomFloat(random, -60, 60));
+        const Fixed64x64 second = Fixed64x64::fromFloat(randomFloat(random, -60, 60));
+        Fixed64x64 sum = first;
+        sum.add(second);
+        EXPECT_EQ(wide(sum), wide(first) + wide(second));
+        sum.subtract(first);
+        EXPECT_EQ(sum, second);
+    }
+    Fixed64x64 saturated = LARGEST;
+    saturated.subtract({1, 0});
+    EXPECT_EQ(saturated, LARGEST);
+}
+
 TEST(Fixed64x64, fromFloat_saturatesFromTwoToThe64Up)
 {
     for (float value : {0x1p64f, 1e30f, 0x1.fffffep127f, INFINITY}) {

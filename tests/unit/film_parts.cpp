@@ -1,6 +1,8 @@
 // Ranges of samples, and films as channels of files.
 #include "film/merge.h"
+#include "film/replicates.h"
 #include "film/sample_ranges.h"
+#include "shared/scene_types.h"
 #include "support/film_files.h"
 
 #include <gtest/gtest.h>
@@ -43,6 +45,32 @@ TEST(SampleRanges, samplesAndBlocks_areCountedAsOneByOne)
         EXPECT_EQ(samplesIn({range}), range.end - range.first);
         EXPECT_EQ(blocksIn(SampleRanges{range}), (range.end - range.first + 7) / 8);
     }
+}
+
+TEST(SampleRanges, ofBlocksOf64_areCountedSharedOutAndTornApartAsThose)
+{
+    EXPECT_EQ(samplesOfHalf({{0, 64}, {128, 300}}, 0, 64), 64u + 64u + 44u);
+    EXPECT_EQ(samplesOfHalf({{0, 64}, {128, 300}}, 1, 64), 64u);
+    EXPECT_EQ(blocksIn(300, 64), 5u);
+    EXPECT_EQ(shardOf(1, 3, 300, 64), (SampleRange{64, 192}));
+    EXPECT_EQ(shardOf(2, 3, 300, 64), (SampleRange{192, 300}));
+    EXPECT_TRUE(beginWithBlocks({{0, 64}, {128, 300}}, 64));
+    EXPECT_FALSE(beginWithBlocks({{0, 64}, {72, 300}}, 64));
+    EXPECT_TRUE(beginWithBlocks({{8, 64}}, 8));
+}
+
+TEST(Replicates, haveASizeASamplerAndANameInFiles)
+{
+    const std::pair<uint32_t, uint32_t> sizes[] = {{SAMPLER_INDEPENDENT, 1}, {SAMPLER_SOBOL, 8}, {SAMPLER_SOBOL64, 64}};
+    for (auto [sampler, size] : sizes) {
+        EXPECT_EQ(replicateSizeOf(sampler), size);
+        EXPECT_EQ(replicateSizeIn(varianceOver(size)), size);
+        EXPECT_EQ(blockOfReplicates(size), std::max(size, 8u));
+    }
+    EXPECT_EQ(replicateSizeIn("blocks of 32"), 1u);
+    EXPECT_EQ(replicatesIn(129, 64), 3u);
+    EXPECT_EQ(replicatesIn(128, 64), 2u);
+    EXPECT_EQ(replicatesIn(5, 1), 5u);
 }
 
 TEST(SampleRanges, shards_coverThePictureInOrderAndNoneIsEmpty)

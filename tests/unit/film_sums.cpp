@@ -42,6 +42,59 @@ TEST(Film, add_putsEvenBlocksIntoAAndOddOnesIntoB)
     EXPECT_EQ(film.digest[0], 5 * 0x80000001u);  // wraps around
 }
 
+/// A block of 8 samples of grey light whose luminances add up to `sum`; what it says of their squares is of no use.
+PixelBlock greyBlock(float sum, uint32_t samples = BLOCK_SIZE)
+{
+    PixelBlock block = {};
+    block.sum = vec3(sum);
+    block.sumY2 = 12345;
+    block.samplesDone = samples;
+    return block;
+}
+
+TEST(Film, add_ofReplicatesOf64_putsThemIntoHalvesInTurnsAndSquaresEachAsAWhole)
+{
+    Film film(1, 1);
+    film.replicateSize = 64;
+    std::mt19937 random(11);
+    // Of the replicate so far, and of those before, by half
+    double sum = 0, squares[2] = {};
+    for (uint32_t pass = 0; pass < 35; pass++) {
+        const uint32_t first = pass * BLOCK_SIZE, half = first / 64 % 2, before = first % 64;
+        const uint32_t samples = pass == 34 ? 5 : BLOCK_SIZE;
+        const PixelBlock block = greyBlock(static_cast<float>(random() % 1000) / 16, samples);
+        film.add(0, 0, 1, 1, first, {&block, 1});
+        sum = (before == 0 ? 0 : sum) + block.sum.x;
+        const double ofReplicate = sum * sum / (before + samples);
+        EXPECT_EQ(film.half[half][0].samples, first / 128 * 64 + before + samples);
+        // A few roundings of double
+        EXPECT_NEAR(film.half[half][0].sumY2.toDouble(), squares[half] + ofReplicate, 1e-15 * (squares[half] + ofReplicate));
+        EXPECT_NEAR(film.half[1 - half][0].sumY2.toDouble(), squares[1 - half], 1e-15 * squares[1 - half]);
+        if (before + samples == 64) squares[half] += ofReplicate;
+    }
+    // 4 whole replicates, and 21 samples of a fifth
+    EXPECT_EQ(pixelStatistics(film, 0).replicates, 5);
+}
+
+TEST(Film, ofReplicatesOf64_isTheSumOfPartsThatTearNoneApart)
+{
+    std::mt19937 random(12);
+    std::vector<PixelBlock> blocks;
+    for (uint32_t pass = 0; pass < 30; pass++) blocks.push_back(greyBlock(static_cast<float>(random() % 100000) / 977));
+    Film whole(1, 1), parts(1, 1);
+    whole.replicateSize = parts.replicateSize = 64;
+    for (uint32_t pass = 0; pass < 30; pass++) whole.add(0, 0, 1, 1, pass * BLOCK_SIZE, {&blocks[pass], 1});
+    for (auto [first, end] : {std::pair{16u, 30u}, {0u, 8u}, {8u, 16u}}) {
+        Film part(1, 1);
+        part.replicateSize = 64;
+        for (uint32_t pass = first; pass < end; pass++) part.add(0, 0, 1, 1, pass * BLOCK_SIZE, {&blocks[pass], 1});
+        parts.merge(part);
+    }
+    EXPECT_TRUE(parts == whole);
+    Film other(1, 1);
+    EXPECT_THROW(other.merge(whole), Error);
+}
+
 TEST(Film, add_putsTilesWhereTheyBelong)
 {
     Film film(5, 4);
