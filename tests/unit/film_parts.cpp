@@ -167,6 +167,20 @@ TEST_F(MergedFilms, anySplitInAnyOrder_isTheFilmOfOneRun)
     }
 }
 
+TEST_F(MergedFilms, thatTearABlockOf64Apart_areRefused)
+{
+    FilmFileParts parts = filmFileOf({{8, 72}}, 72);
+    EXPECT_EQ(openFilmFile(write("eights", parts)).replicateSize(), 1u);
+    parts.metadata["sahl.varianceOver"] = "blocks of 64";
+    const fs::path path = write("torn", parts);
+    try {
+        openFilmFile(path);
+        ADD_FAILURE() << "taken";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("ranges that begin with blocks of 64 samples"), std::string::npos) << error.what();
+    }
+}
+
 TEST_F(MergedFilms, saturatedNumbers_saturateAsInOneRun)
 {
     FilmFileParts a = filmFileOf({{0, 32}}), b = filmFileOf({{32, 64}});
