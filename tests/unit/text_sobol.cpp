@@ -1,6 +1,6 @@
 // The sampler `sobol`: the net, its scrambling and shuffling, and what is left to chance.
 
-#include "reference/kernel.h"
+#include "unit/sobol_points.h"
 
 #include <gtest/gtest.h>
 
@@ -27,22 +27,7 @@ using Block = std::array<vec4, BLOCK_SIZE>;
 
 Block blockOf(Kernel& kernel, uint pixel, uint block, uint dimension)
 {
-    Block points;
-    for (uint i = 0; i < BLOCK_SIZE; i++)
-        points[i] = kernel.random4(pixel, block * BLOCK_SIZE + i, dimension);
-    return points;
-}
-
-/// Cells of 2^cuts[c] equal parts along each axis that hold a point.
-size_t cellsMet(const Block& points, const std::array<int, 4>& cuts)
-{
-    std::set<std::array<int, 4>> cells;
-    for (const vec4& point : points) {
-        std::array<int, 4> cell;
-        for (int c = 0; c < 4; c++) cell[size_t(c)] = int(std::ldexp(point[c], cuts[size_t(c)]));
-        cells.insert(cell);
-    }
-    return cells.size();
+    return samplesOfBlock<BLOCK_SIZE>(kernel, pixel, block, dimension);
 }
 
 /// The digits of the net as numbers.
@@ -248,14 +233,6 @@ TEST(Sobol, isUniformAlongPixelsBlocksAndRows)
             }
         }
     }
-}
-
-/// Mean of (u - 1/2) over the samples of a block.
-vec4 meanOf(const Block& points)
-{
-    vec4 sum(0);
-    for (const vec4& point : points) sum += point - 0.5f;
-    return sum / 8.0f;
 }
 
 TEST(Sobol, hasNoCorrelationBetweenPixelsBlocksRowsSeedsAndSamplers)

@@ -1,6 +1,6 @@
 // The sampler `sobol64`: the net, its scrambling and shuffling, and what is left to chance.
 
-#include "reference/kernel.h"
+#include "unit/sobol_points.h"
 
 #include <gtest/gtest.h>
 
@@ -28,9 +28,7 @@ using Block = std::array<vec4, N64>;
 
 Block blockOf(Kernel& kernel, uint pixel, uint block, uint dimension)
 {
-    Block points;
-    for (uint i = 0; i < N64; i++) points[i] = kernel.random4(pixel, block * N64 + i, dimension);
-    return points;
+    return samplesOfBlock<N64>(kernel, pixel, block, dimension);
 }
 
 /// The digits of the net as numbers.
@@ -42,18 +40,6 @@ Block plainNet()
         for (int c = 0; c < 4; c++) points[i][c] = float(digits >> (18 - 6 * c) & 63) / 64;
     }
     return points;
-}
-
-/// Cells of 2^cuts[c] equal parts along each axis that hold a point.
-size_t cellsMet(const Block& points, const std::array<int, 4>& cuts)
-{
-    std::set<std::array<int, 4>> cells;
-    for (const vec4& point : points) {
-        std::array<int, 4> cell;
-        for (int c = 0; c < 4; c++) cell[size_t(c)] = int(std::ldexp(point[c], cuts[size_t(c)]));
-        cells.insert(cell);
-    }
-    return cells.size();
 }
 
 /// Every way to cut two axes, or the first three, into 64 equal cells: the 64 points fill all.
@@ -199,14 +185,6 @@ TEST(Sobol64, isUniformAlongPixelsBlocksAndRows)
             }
         }
     }
-}
-
-/// Mean of (u - 1/2) over the samples of a block.
-vec4 meanOf(const Block& points)
-{
-    vec4 sum(0);
-    for (const vec4& point : points) sum += point - 0.5f;
-    return sum / float(N64);
 }
 
 // Of the mean of 64 strata, each of variance 1 / (12 64^2); of independent samples 64^2 times that.
