@@ -20,11 +20,6 @@ uint32_t featuresOf(const Material& material)
            featureIf(material.alphaCutoff > 0, FEATURE_CUTOUTS);
 }
 
-bool shines(const Material& material)
-{
-    return material.emission != vec3(0);
-}
-
 uint32_t featuresOf(const Probe& probe)
 {
     if (probe.height == 0) return 0;
@@ -44,6 +39,11 @@ uint32_t featuresOf(const Frame& frame)
 }
 
 }  // namespace
+
+bool shines(const Material& material)
+{
+    return material.emission != vec3(0);
+}
 
 uint32_t featuresOf(const DeviceScene& scene)
 {

@@ -8,4 +8,7 @@ namespace sahl {
 /// FEATURE_* bits of shared/features.h.
 uint32_t featuresOf(const DeviceScene& scene);
 
+/// Whether a surface of that material gives light.
+bool shines(const Material& material);
+
 }  // namespace sahl

@@ -1,5 +1,6 @@
 #include "render/prepare.h"
 
+#include "device/scene_features.h"
 #include "device/walked_tree.h"
 #include "scene/probe_weights.h"
 
@@ -29,8 +30,6 @@ DeviceScene ownArrays(const Scene& scene, const Bvh& bvh)
     view.instances = bvh.instances;
     return view;
 }
-
-bool shines(const Material& material) { return material.emission != vec3(0); }
 
 }  // namespace
 
