@@ -3,12 +3,12 @@
 
 CONST float LEAST_SURVIVAL = 0.05f;  // so that no path comes back 20 times as bright as it was
 
-/// Probability that the path goes on: the square root of what it carries, so that the dark ones still tell something. With
+/// Probability that the path goes on: the fourth root of what it carries, so that the dark ones still tell something. With
 /// what it carries itself, rays are saved and as much noise is made (docs/sampling.md). What refraction has divided
 /// radiance by does not count: the path gets it back where it leaves the dense medium.
 float survivalOf(vec3 beta, float etaScale)
 {
-    return min2(1.0f, max2(LEAST_SURVIVAL, root(maxComponent(beta) * etaScale)));
+    return min2(1.0f, max2(LEAST_SURVIVAL, root(root(maxComponent(beta) * etaScale))));
 }
 
 /// Whether the path goes on after it was scattered at a vertex.

@@ -47,13 +47,13 @@ Film rendered(Scene scene, uint32_t spp)
 }
 
 /// Indirect rays a camera ray in the furnace, where after every scattering, from `depth` on, a path
-/// that carries T goes on with the chance sqrt(T).
+/// that carries T goes on with the chance of T's fourth root.
 double raysInFurnace(double albedo, uint32_t depth, uint32_t bounces)
 {
     double rays = 0, alive = 1, carried = 1;
     for (uint32_t i = 0; i < bounces; i++) {
         carried *= albedo;
-        const double survival = i < depth ? 1 : std::max(0.05, std::sqrt(carried));
+        const double survival = i < depth ? 1 : std::max(0.05, std::pow(carried, 0.25));
         alive *= survival;
         carried /= survival;
         rays += alive;
@@ -110,7 +110,7 @@ TEST(Roulette, changesNoMean)
 {
     const Film without = rendered(busyScene(1), 512);
     Scene scene = busyScene(2);
-    scene.settings.rouletteDepth = 1;
+    scene.settings.rouletteDepth = 0;
     const Film with = rendered(std::move(scene), 512);
     const Mean a = frameMean(without), b = frameMean(with);
     const double error = std::hypot(a.standardError, b.standardError);

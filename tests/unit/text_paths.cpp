@@ -11,10 +11,10 @@ namespace {
 
 using Kernel = reference::Kernel<>;
 
-TEST(Roulette, survivalIsTheRootOfTheThroughputsLargestChannel)
+TEST(Roulette, survivalIsTheFourthRootOfTheThroughputsLargestChannel)
 {
     Kernel kernel = {};
-    EXPECT_EQ(kernel.survivalOf({0.125f, 0.25f, 0.0625f}, 1), 0.5f);
+    EXPECT_EQ(kernel.survivalOf({0.03125f, 0.0625f, 0.015625f}, 1), 0.5f);
     EXPECT_EQ(kernel.survivalOf({0.25f, 2, 0.125f}, 1), 1);
     EXPECT_EQ(kernel.survivalOf(vec3(1e-9f), 1), 0.05f) << "no path may come back too bright";
     EXPECT_EQ(kernel.survivalOf(vec3(1 / 2.25f), 2.25f), 1)
@@ -38,14 +38,14 @@ TEST(Roulette, playsFromItsDepthOn)
     auto survivors = [&](uint depth) {
         uint count = 0;
         for (uint i = 0; i < 1000; i++) {
-            PathState path = pathOf(depth, vec3(0.04f, 0.0625f, 0.09f), i);
+            PathState path = pathOf(depth, vec3(0.0036f, 0.005625f, 0.0081f), i);
             if (!kernel.survivesRoulette(4, path)) continue;
             count++;
             if (depth < kernel.frame.rouletteDepth) {
-                EXPECT_EQ(path.beta, vec3(0.04f, 0.0625f, 0.09f));
+                EXPECT_EQ(path.beta, vec3(0.0036f, 0.005625f, 0.0081f));
             } else {
-                EXPECT_FLOAT_EQ(path.beta.x, 0.04f / 0.3f);
-                EXPECT_FLOAT_EQ(path.beta.z, 0.3f);
+                EXPECT_FLOAT_EQ(path.beta.x, 0.0036f / 0.3f);
+                EXPECT_FLOAT_EQ(path.beta.z, 0.027f);
             }
         }
         return count;
@@ -64,7 +64,7 @@ TEST(Roulette, takesPathsOfAllDirectionsAlike)
     Kernel kernel = {};
     Material material = {};
     material.type = MATERIAL_LAMBERT;
-    material.baseColor = vec3(0.09f);
+    material.baseColor = vec3(0.0081f);
     Kernel::SurfaceInteraction isect = {};
     isect.ng = isect.ns = isect.nsStored = vec3(0, 0, 1);
     isect.front = true;
