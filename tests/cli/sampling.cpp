@@ -1,6 +1,8 @@
 // --sampler, --roulette-depth and --clamp-indirect as users meet them.
 #include "cli/sahl_program.h"
 #include "image/exr_layers.h"
+#include "image/image.h"
+#include "support/pictures.h"
 
 namespace sahl::testing {
 namespace {
@@ -124,6 +126,19 @@ TEST_F(Sampling, mistakesAreRefusedWithTheReason)
         render({"--sampler", "sobol", "--adaptive", "joint", "--min-spp", "16", "--max-spp", "32"})
             .exitCode,
         0);
+}
+
+TEST_F(Sampling, bySobol64IsKeptByASavedScene)
+{
+    nlohmann::json scene = sceneOnAFloor();
+    scene["integrator"].update({{"sampler", "sobol64"}, {"rouletteDepth", 1}});
+    writeText(folder / "ball.json", scene.dump());
+    EXPECT_EQ(metadataAfter({})["sahl.sampler"], "sobol64");
+    ASSERT_EQ(sahl({"bvh", "ball.json", "-o", "ball.sahl"}, here()).exitCode, 0);
+    ASSERT_EQ(
+        sahl({"render", "ball.sahl", "--device", "cpu", "--spp", "16", "-o", "saved.exr"}, here()).exitCode, 0);
+    EXPECT_EQ(describeExr(folder / "saved.exr").metadata["sahl.sampler"], "sobol64");
+    expectSameBits(readImage(folder / "saved.exr"), readImage(folder / "ball.exr"));
 }
 
 TEST_F(Sampling, bySobol64TiesBlocksOf64AndSaysSo)
