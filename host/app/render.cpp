@@ -334,7 +334,11 @@ int runRender(RenderOptions& options)
         seconds.load = watch.lap();
         // A saved scene has its tree, and a part that is there already needs no device
         const bool isSaved = scene.primitives.empty();
-        if (!isSaved && !options.range.skipExisting) opening.emplace(options.common, outlineOf(scene));
+        if (!isSaved && !options.range.skipExisting) {
+            SceneOutline outline = outlineOf(scene);
+            outline.samples = uint64_t{filmSettings.width} * filmSettings.height * (options.samples.end - options.samples.first);
+            opening.emplace(options.common, outline);
+        }
     });
     seconds.build = watch.lap();
     options.hashes = hashesOf(prepared.deviceScene());

@@ -7,6 +7,7 @@
 #include "shared/ray_types.h"
 #include "shared/scene_types.h"
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -50,6 +51,7 @@ struct SceneOutline {
     uint32_t features = 0;  ///< as featuresOf() has them
     size_t primitives = 0;
     size_t triangleCorners = 0;
+    uint64_t samples = std::numeric_limits<uint64_t>::max();  ///< of all pixels together, at most
 };
 
 /// Part of a picture and of its samples. x, y, width and height in pixels of the full picture.

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace sahl {
 
@@ -94,6 +95,7 @@ private:
     bool pipelineTexel_ = false;
     uint32_t pipelineFeatures_ = 0;
     WalkForm pipelineForm_;  // without entries: no pipeline yet
+    bool fewSamples_ = false;  // of the scene that is expected
     std::unique_ptr<VulkanScene> scene_;
     uint32_t samplerKind_ = SAMPLER_INDEPENDENT;
     Buffer pixels_, suspended_;   // as large as the largest tile so far
@@ -132,7 +134,8 @@ void VulkanDevice::expectScene(const SceneOutline& outline)
     bytes[BINDING_PRIMITIVES] = outline.primitives * sizeof(Primitive);
     bytes[BINDING_CORNERS] = outline.triangleCorners * sizeof(TriangleCorners);
     const bool texel = chooseTexelBuffers(context_->physical, bytes, {options_.buffers, variant_.texelBuffers});
-    WalkForm form = expectedWalkForm(outline.primitives, options_.nodeWidth, variant_.stackInRegisters);
+    fewSamples_ = outline.samples <= FEW_SAMPLES;
+    WalkForm form = expectedWalkForm(outline.primitives, options_.nodeWidth, variant_.stackInRegisters, fewSamples_);
     form.stackEntries = chooseStackSize(form.stackEntries);
     preparePipeline(texel, outline.features, form);
 }
@@ -145,7 +148,7 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     firstHitsBound_ = false;
     WalkForm form = walkFormFor(scene, options_.nodeWidth, variant_.stackInRegisters);
     form.stackEntries = chooseStackSize(form.stackEntries);
-    if (isRoomierArray(pipelineForm_, form)) form = pipelineForm_;
+    if (serves(pipelineForm_, form, std::exchange(fewSamples_, false))) form = pipelineForm_;
     auto start = std::chrono::steady_clock::now();
     auto uploaded = std::make_unique<VulkanScene>(
         uploadScene(*context_, scene, {options_.buffers, variant_.texelBuffers}, form.nodeWidth));

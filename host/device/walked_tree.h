@@ -32,23 +32,27 @@ inline WalkForm walkFormFor(const DeviceScene& scene, uint32_t wantedWidth, bool
     return {4, entries, false};
 }
 
-/// The form in which a scene of so many primitives is likely to be walked, before its tree is known: so it is with nearly
-/// all models at hand, from a box to a million triangles.
-inline WalkForm expectedWalkForm(size_t primitives, uint32_t wantedWidth, bool wantRegisters)
+/// Up to so many samples a kernel with too many registers is the faster one if it is there already: 4 to 8 too many cost 2 to
+/// 5 % of the samples a second on lavapipe, and another kernel the time of some 200,000.
+constexpr uint64_t FEW_SAMPLES = 4'000'000;
+
+/// The form in which a scene of so many primitives is likely to be walked, before its tree is known. Where many samples
+/// are to come it is a guess, by the models at hand, from a box to a million triangles; for few it has all registers.
+inline WalkForm expectedWalkForm(size_t primitives, uint32_t wantedWidth, bool wantRegisters, bool fewSamples)
 {
     const bool isTiny = primitives <= MAX_LEAF_SIZE;
     if (wantedWidth != 4 || isTiny) return {2, isTiny ? 0u : 32u, false};
+    if (wantRegisters && fewSamples) return {4, STACK_REGISTERS, true};
     const size_t size = primitives < 15'000 ? 0 : (primitives < 500'000 ? 1 : 2);
     constexpr uint32_t GROUPS[] = {8, 12, 16}, ENTRIES[] = {32, 48, MAX_STACK_SIZE};
     return {4, wantRegisters ? GROUPS[size] : ENTRIES[size], wantRegisters};
 }
 
-/// Whether a kernel made for the one form serves the other as well. An array costs nothing for being too large; registers
-/// do.
-inline bool isRoomierArray(const WalkForm& made, const WalkForm& needed)
+/// Whether a kernel made for the one form is to serve the other. An array costs nothing for being too large; registers do.
+inline bool serves(const WalkForm& made, const WalkForm& needed, bool fewSamples)
 {
-    return made.nodeWidth == needed.nodeWidth && !made.stackInRegisters && !needed.stackInRegisters &&
-           made.stackEntries > needed.stackEntries;
+    return made.nodeWidth == needed.nodeWidth && made.stackInRegisters == needed.stackInRegisters &&
+           made.stackEntries >= needed.stackEntries && (!made.stackInRegisters || fewSamples);
 }
 
 /// The scene with the frame and the instances of the trees of that width.

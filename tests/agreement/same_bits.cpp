@@ -50,6 +50,21 @@ TEST_F(SameBits, onTheDeviceThatExpectedTheScene_withTheKernelsMadeAhead)
     EXPECT_EQ(device->statistics().pipelines, 1u);
 }
 
+TEST_F(SameBits, onTheDeviceThatExpectedFewSamples_withKernelsOfAllRegisters)
+{
+    auto device = openFirstDevice();
+    SceneOutline outline = outlineOf(builtInScene(smallPicture(WIDTH, HEIGHT, SPP)));
+    outline.samples = uint64_t{WIDTH} * HEIGHT * SPP;
+    device->expectScene(outline);
+    EXPECT_TRUE(renderFilm(*device, scene(), 0, SPP) == reference());
+    EXPECT_EQ(device->statistics().pipelines, 1u);
+
+    // A scene of which nothing was said may be rendered for long
+    EXPECT_TRUE(renderFilm(*device, scene(), 0, SPP) == reference());
+    const bool registers = device->statistics().variant.find("registers") != std::string::npos;
+    EXPECT_EQ(device->statistics().pipelines, registers ? 2u : 1u);
+}
+
 TEST_F(SameBits, onTheDeviceThatExpectedAnother_withOtherKernels)
 {
     auto device = openFirstDevice();

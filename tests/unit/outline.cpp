@@ -22,11 +22,13 @@ TEST(SceneOutline, hasTheFeaturesAndTheFormOfTheSceneWithItsTree)
         const DeviceScene whole = prepared.deviceScene();
         EXPECT_EQ(outline.features, featuresOf(whole)) << name;
         for (const bool registers : {true, false}) {
-            const WalkForm expected = expectedWalkForm(outline.primitives, 4, registers);
-            const WalkForm needed = walkFormFor(whole, 4, registers);
-            EXPECT_EQ(expected.nodeWidth, needed.nodeWidth) << name;
-            EXPECT_EQ(expected.stackInRegisters, needed.stackInRegisters) << name;
-            EXPECT_GE(expected.stackEntries, needed.stackEntries) << name;
+            for (const bool few : {true, false}) {
+                const WalkForm expected = expectedWalkForm(outline.primitives, 4, registers, few);
+                const WalkForm needed = walkFormFor(whole, 4, registers);
+                EXPECT_EQ(expected.nodeWidth, needed.nodeWidth) << name;
+                EXPECT_EQ(expected.stackInRegisters, needed.stackInRegisters) << name;
+                EXPECT_GE(expected.stackEntries, needed.stackEntries) << name;
+            }
         }
     }
 }

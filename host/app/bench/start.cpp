@@ -1,4 +1,4 @@
-// sahl bench start: from nothing to the first finished sample of every pixel, as processes of their own.
+// sahl bench start: from nothing to the samples of the first tile, as processes of their own.
 
 #include "app/bench/bench.h"
 #include "app/bench/rounds.h"
@@ -86,7 +86,7 @@ Json benchStart(const BenchOptions& options)
             const double seconds = runSelf(render, environment);
             const Json found = Json::parse(readTextFile(statistics)).at("seconds");
             load.seconds.push_back(found.at("load").get<double>() + found.at("build").get<double>());
-            // Without what follows the first finished sample
+            // Without what follows the first tile
             return seconds - (found.at("total").get<double>() - found.at("firstSample").get<double>());
         };
         const Environment cached = withCache(scratch.path / "cache");
@@ -112,7 +112,7 @@ Json benchStart(const BenchOptions& options)
         table.push_back({name, shortNumber(empty), shortNumber(cold), shortNumber(warm), shortNumber(load.median()),
                          shortNumber(compile), shortNumber(coldRatio), shortNumber(warmRatio)});
     }
-    answer("processes from start to the first finished sample, {} x {} pixels, medians of {} rounds [s]\n", options.size,
+    answer("processes from start to the samples of the first tile, {} x {} pixels, medians of {} rounds [s]\n", options.size,
            options.size, rounds);
     printTable({"scene", "empty", "cold", "warm", "load, tree", "compile", "cold / compile", "warm / load"}, table);
     return {{"rounds", rounds}, {"size", options.size}, {"rows", rows}};
