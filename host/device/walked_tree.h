@@ -32,8 +32,8 @@ inline WalkForm walkFormFor(const DeviceScene& scene, uint32_t wantedWidth, bool
     return {4, entries, false};
 }
 
-/// Up to so many samples a kernel with too many registers is the faster one if it is there already: 4 to 8 too many cost 2 to
-/// 5 % of the samples a second on lavapipe, and another kernel the time of some 200,000.
+/// Up to so many samples a kernel with too many registers is the faster one if it is there already: 4 too many cost 2 to
+/// 5 % of the samples a second on lavapipe, and another kernel takes as long as some 150,000.
 constexpr uint64_t FEW_SAMPLES = 4'000'000;
 
 /// The form in which a scene of so many primitives is likely to be walked, before its tree is known. Where many samples
