@@ -131,7 +131,7 @@ Counters countersOf(const FilmPixel& pixel)
 Film::Film(uint32_t filmWidth, uint32_t filmHeight) : width(filmWidth), height(filmHeight)
 {
     const size_t pixels = size_t{width} * height;
-    for (std::vector<HalfPixel>& pixelsOfHalf : half) pixelsOfHalf.resize(pixels);
+    for (ZeroedVector<HalfPixel>& pixelsOfHalf : half) pixelsOfHalf.resize(pixels);
     digest.resize(pixels);
     work.resize(pixels);
 }
@@ -143,7 +143,7 @@ void Film::add(uint32_t x, uint32_t y, uint32_t tileWidth, uint32_t tileHeight,
     assert(blocks.size() == size_t{tileWidth} * tileHeight);
     assert(firstSample % BLOCK_SIZE == 0);
     const bool largeReplicates = replicateSize > BLOCK_SIZE;
-    std::vector<HalfPixel>& target = half[firstSample / blockOfReplicates(replicateSize) % 2];
+    ZeroedVector<HalfPixel>& target = half[firstSample / blockOfReplicates(replicateSize) % 2];
     if (largeReplicates) newestReplicate.resize(digest.size());
     std::vector<Counters> counted(tileHeight);
     parallelFor(tileHeight, threads, [&](size_t row) {

@@ -4,6 +4,7 @@
 #include "image/image.h"
 #include "shared/adaptive_types.h"
 #include "shared/film_types.h"
+#include "util/zero_pages.h"
 
 #include <cstdint>
 #include <span>
@@ -61,9 +62,9 @@ struct Film {
     explicit Film(uint32_t filmWidth = 0, uint32_t filmHeight = 0);
 
     uint32_t width, height;
-    std::vector<HalfPixel> half[2];  ///< A: even blocks (or larger replicates), B: odd; width * height each
-    std::vector<uint32_t> digest;    ///< path digest of each pixel
-    std::vector<PixelWork> work;     ///< of each pixel
+    ZeroedVector<HalfPixel> half[2];  ///< A: even blocks (or larger replicates), B: odd; width * height each
+    ZeroedVector<uint32_t> digest;   ///< path digest of each pixel
+    ZeroedVector<PixelWork> work;    ///< of each pixel
     Counters counters;
     /// The picture is the mean of the halves' means rather than of all samples: where one half's samples
     /// decided how many the other has, any other weight would bias it (the rule `crossed`).

@@ -48,7 +48,7 @@ struct Place {
 std::vector<Place> placesIn(const Film& film)
 {
     std::vector<Place> places;
-    for (const std::vector<HalfPixel>& half : film.half) {
+    for (const ZeroedVector<HalfPixel>& half : film.half) {
         const HalfPixel& pixel = half[0];
         for (const Fixed64x64* sum : {&pixel.sum[0], &pixel.sum[1], &pixel.sum[2], &pixel.sumY2}) {
             for (const uint64_t* number : {&sum->fraction, &sum->whole}) {

@@ -18,7 +18,7 @@ namespace {
 /// A rendered tile that waits for its pass to be complete.
 struct FinishedTile {
     TileRequest tile;
-    std::vector<PixelBlock> blocks;
+    ZeroedVector<PixelBlock> blocks;
 };
 
 using Pass = std::vector<FinishedTile>;
