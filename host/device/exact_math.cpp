@@ -1,12 +1,14 @@
 #include "device/exact_math.h"
 
 #include "kernels/spirv.h"
+#include "shared/bindings.h"
 #include "vulkan/run_compute.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace sahl {
 
@@ -25,22 +27,33 @@ float anyNumber(std::mt19937& random)
 
 }  // namespace
 
-bool areExact(std::span<const glm::vec2> operands, std::span<const glm::vec2> results)
+bool areExact(const MathProbe& probe)
 {
-    for (size_t i = 0; i < operands.size(); i++) {
-        if (results[i].x != operands[i].x / operands[i].y) return false;
-        if (results[i].y != std::sqrt(operands[i].x)) return false;
+    for (size_t i = 0; i < probe.operands.size(); i++) {
+        const auto [a, b] = std::pair(probe.operands[i].x, probe.operands[i].y);
+        if (probe.results[i].x != a / b || probe.results[i].y != std::sqrt(a)) return false;
     }
     return true;
 }
 
-bool dividesExactly(Context& context)
+bool areFused(const MathProbe& probe)
+{
+    for (size_t i = 0; i < probe.operands.size(); i++) {
+        const auto [a, b] = std::pair(probe.operands[i].x, probe.operands[i].y);
+        if (probe.results[i].z != a / b || probe.results[i].w != std::fma(a, b, -(a * b))) return false;
+    }
+    return true;
+}
+
+MathProbe probeMath(Context& context)
 {
     std::mt19937 random(1);
-    constexpr uint32_t PAIR_BYTES = sizeof(glm::vec2);
-    const uint32_t fitting = context.physical.properties.limits.maxStorageBufferRange / PAIR_BYTES;
+    const uint32_t fitting = context.physical.properties.limits.maxStorageBufferRange / sizeof(glm::vec4);
     const uint32_t pairs = std::min(PAIRS, fitting / GROUP * GROUP);
-    std::vector<glm::vec2> operands(pairs), results(pairs);
+    MathProbe probe;
+    std::vector<glm::vec2>& operands = probe.operands;
+    operands.resize(pairs);
+    probe.results.resize(pairs);
     for (uint32_t i = 0; i < pairs; i++) {
         operands[i] = {anyNumber(random), anyNumber(random)};
         if (i % 8 == 0) operands[i].y = std::bit_cast<float>(0x3f7fffffu - i / 8 % 16);
@@ -50,17 +63,21 @@ bool dividesExactly(Context& context)
     parameters.name = "math_probe";
     parameters.groups = {pairs / GROUP, 1, 1};
     runCompute(context, kernelSpirv("math_probe"),
-               {std::as_writable_bytes(std::span(operands)), std::as_writable_bytes(std::span(results))},
+               {std::as_writable_bytes(std::span(operands)), std::as_writable_bytes(std::span(probe.results))},
                parameters);
-    return areExact(operands, results);
+    return probe;
 }
 
-bool chooseExactMath(Context& context, DeviceOptions::Math wanted)
+uint32_t chooseMath(Context& context, DeviceOptions::Math wanted)
 {
-    if (wanted != DeviceOptions::Math::automatic) return wanted == DeviceOptions::Math::exact;
-    VkDriverId driver = context.physical.driverId;
-    bool measured = driver == VK_DRIVER_ID_MESA_LLVMPIPE || driver == VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
-    return !measured && !dividesExactly(context);
+    using Math = DeviceOptions::Math;
+    if (wanted == Math::exact) return MATH_INTEGERS;
+    const VkDriverId driver = context.physical.driverId;
+    const bool measured = driver == VK_DRIVER_ID_MESA_LLVMPIPE || driver == VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
+    if (wanted == Math::native || measured) return MATH_NATIVE;
+    const MathProbe probe = probeMath(context);
+    if (areExact(probe)) return MATH_NATIVE;
+    return areFused(probe) ? MATH_FUSED : MATH_INTEGERS;
 }
 
 }  // namespace sahl

@@ -270,14 +270,14 @@ private:
 }  // namespace
 
 AdaptivePipelines makeAdaptivePipelines(Context& context, ComputePipeline path,
-                                        const std::array<uint32_t, 2>& group, bool exactMath)
+                                        const std::array<uint32_t, 2>& group, uint32_t math)
 {
     PipelineRequest request;
     request.name = "adaptive_pass";
     std::vector<uint32_t> constants(SPEC_COUNT);
     constants[SPEC_GROUP_WIDTH] = group[0];
     constants[SPEC_GROUP_HEIGHT] = group[1];
-    constants[SPEC_EXACT_MATH] = exactMath ? 1 : 0;
+    constants[SPEC_MATH] = math;
     constants[SPEC_UNIFORMS_HIDDEN] = compilesForUniforms(context.physical.driver) ? 1 : 0;
     request.spirv = foldedKernel(request.name, constants);
     request.bindings = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};

@@ -16,7 +16,7 @@ struct AdaptivePipelines {
 
 /// `path`: the pipeline of adaptive_path for the scene and stack in force.
 AdaptivePipelines makeAdaptivePipelines(Context& context, ComputePipeline path,
-                                        const std::array<uint32_t, 2>& group, bool exactMath);
+                                        const std::array<uint32_t, 2>& group, uint32_t math);
 
 /// What all tiles share of the device that makes them; must outlive them. beginTile() calls
 /// `prepareTile` first: it throws when the device cannot render such a tile, and makes room in

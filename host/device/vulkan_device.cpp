@@ -85,6 +85,7 @@ private:
     DeviceOptions options_;
     Variant variant_;
     std::array<uint32_t, 2> group_;
+    uint32_t math_ = MATH_NATIVE;  // one of MATH_*
     unsigned threads_;  // of the host
     DeviceStatistics statistics_;
     BoundedWork work_;
@@ -118,7 +119,8 @@ VulkanDevice::VulkanDevice(std::unique_ptr<Context> context, const DeviceOptions
       ahead_(*context_)
 {
     statistics_.variant = nameOf(variant_);
-    statistics_.exactMath = chooseExactMath(*context_, options.math);
+    math_ = chooseMath(*context_, options.math);
+    statistics_.exactMath = math_ != MATH_NATIVE;
 }
 
 DeviceInfo VulkanDevice::info() const
@@ -181,7 +183,7 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     constants[SPEC_STACK_IN_REGISTERS] = pipelineForm_.stackInRegisters ? 1 : 0;
     constants[SPEC_NODE_WIDTH] = pipelineForm_.nodeWidth;
     constants[SPEC_ORDER] = options_.traversalOrder;
-    constants[SPEC_EXACT_MATH] = statistics_.exactMath ? 1 : 0;
+    constants[SPEC_MATH] = math_;
     constants[SPEC_FEATURES] = pipelineFeatures_;
     constants[SPEC_WAVE_RESUMES] = waveResumes ? 1 : 0;
     constants[SPEC_UNIFORMS_HIDDEN] = compilesForUniforms(context_->physical.driver) ? 1 : 0;
@@ -387,7 +389,7 @@ std::unique_ptr<AdaptivePicture> VulkanDevice::beginAdaptive(const AdaptiveWindo
     if (!adaptive_) {
         ComputePipeline path = makePipeline("adaptive_path", BINDING_COUNT, sizeof(AdaptiveDispatch));
         adaptive_ = std::make_unique<AdaptivePipelines>(
-            makeAdaptivePipelines(*context_, std::move(path), group_, statistics_.exactMath));
+            makeAdaptivePipelines(*context_, std::move(path), group_, math_));
     }
     auto prepareTile = [this](TileRequest tile) {
         ahead_.drain();

@@ -13,6 +13,7 @@
 
 #include <glm/gtc/type_precision.hpp>
 
+#include <cmath>
 #include <span>
 
 #define CONST static constexpr
@@ -39,7 +40,8 @@ struct Kernel {
     static constexpr uint TRAVERSAL_ORDER = Order;
     static constexpr uint FEATURES = FEATURES_ALL & ~(Instances ? 0u : FEATURE_INSTANCES) &
                                      ~(Textures ? 0u : FEATURE_TEXTURES | FEATURE_CUTOUTS);
-    static constexpr bool EXACT_MATH = false;  // C++ divides and takes roots exactly anyway
+    static constexpr uint MATH = MATH_NATIVE;  // C++ divides and takes roots exactly anyway
+    static float fusedMultiplyAdd(float a, float b, float c) { return std::fma(a, b, c); }
 
     std::span<const BvhNode> nodes;
     std::span<const WideNode> wideNodes;

@@ -6,10 +6,11 @@
 #define CONST const
 #define OUT(T) out T
 #define INOUT(T) inout T
+#define fusedMultiplyAdd(a, b, c) fma(a, b, c)
 #define ADAPTIVE_BINDING 0
 #include "kernels/adaptive.glsl"
 
-layout(constant_id = SPEC_EXACT_MATH) const bool EXACT_MATH = false;
+layout(constant_id = SPEC_MATH) const uint MATH = MATH_NATIVE;
 
 layout(std430, set = 0, binding = 1) buffer EstimatesBlock
 {

@@ -5,6 +5,7 @@
 #define OUT(T) out T
 #define INOUT(T) inout T
 #define READ(T) T
+#define fusedMultiplyAdd(a, b, c) fma(a, b, c)
 
 #include "shared/bindings.h"
 #include "shared/features.h"
@@ -17,7 +18,7 @@ layout(constant_id = SPEC_STACK_IN_REGISTERS) const bool STACK_IN_REGISTERS = fa
 const bool WALKS_ARE_WATCHED = true;
 const bool BRANCHES_ARE_GUESSED = false;
 layout(constant_id = SPEC_ORDER) const uint TRAVERSAL_ORDER = ORDER_NEAR_FIRST;
-layout(constant_id = SPEC_EXACT_MATH) const bool EXACT_MATH = false;
+layout(constant_id = SPEC_MATH) const uint MATH = MATH_NATIVE;
 layout(constant_id = SPEC_FEATURES) const uint FEATURES = FEATURES_ALL;
 
 #include "kernels/axes.glsl"

@@ -1,6 +1,8 @@
 // Division and square root, correctly rounded on devices whose own are not. The device's result is
 // taken as a guess; the exact remainder, an integer, decides the last bits. Right as long as the guess
-// is off by at most 3 units in the last place (Vulkan promises 2.5 for division).
+// is off by at most 3 units in the last place (Vulkan promises 2.5 for division). Where the device
+// rounds a * b + c once, the remainder of a division is had in floats, by a third of the instructions.
+// The includer provides that as fusedMultiplyAdd(a, b, c).
 //
 // As in C++: not-a-number, infinities, zeros and overflow. Unlike C++: operands and results below
 // 2^-126 count as zero.
@@ -58,6 +60,26 @@ float exactQuotient(float a, float b, int nudge)
     if (exponent > 254) bits = INFINITY_BITS;
     bool special = exponentA - 1u >= 254u || exponentB - 1u >= 254u;
     return uintBitsToFloat(sign | (special ? specialQuotientBits(sizeA, sizeB) : bits));
+}
+
+/// The same where fusedMultiplyAdd() rounds once.
+///
+/// The remainder of a guess within one unit of the quotient is a float (Markstein 1990, "Computation of elementary
+/// functions on the IBM RISC System/6000 processor"), so both that guess and its neighbour on the quotient's side are
+/// compared exactly: the one that leaves less is the nearest, and never do both leave the same. Between 2^-60 and 2^60
+/// nothing here leaves the normal range; other operands go by integers.
+float fusedQuotient(float a, float b, int nudge)
+{
+    uint exponentA = (floatBitsToUint(a) & INFINITY_BITS) >> 23u;
+    uint exponentB = (floatBitsToUint(b) & INFINITY_BITS) >> 23u;
+    if (exponentA - 67u >= 120u || exponentB - 67u >= 120u) return exactQuotient(a, b, nudge);
+    float guess = uintBitsToFloat(uint(int(floatBitsToUint(a / b)) + nudge));
+    float q = fusedMultiplyAdd(fusedMultiplyAdd(-guess, b, a), 1.0f / b, guess);
+    float rest = fusedMultiplyAdd(-q, b, a);
+    uint restIsOpposite = (floatBitsToUint(rest) ^ floatBitsToUint(a)) >> 31u;  // then |q| is too large
+    float neighbour = uintBitsToFloat(floatBitsToUint(q) + 1u - (restIsOpposite << 1u));
+    float itsRest = fusedMultiplyAdd(-neighbour, b, a);
+    return (floatBitsToUint(itsRest) & ~SIGN_BIT) < (floatBitsToUint(rest) & ~SIGN_BIT) ? neighbour : q;
 }
 
 /// Square root of x, rounded to nearest; nudge as above.

@@ -4,9 +4,13 @@
 CONST float INV_PI = 0.318309886f;
 
 /// a / b and the square root, correctly rounded: by the device itself where it is known to do that.
-float quotient(float a, float b) { return EXACT_MATH ? exactQuotient(a, b, 0) : a / b; }
+float quotient(float a, float b)
+{
+    if (MATH == MATH_FUSED) return fusedQuotient(a, b, 0);
+    return MATH == MATH_INTEGERS ? exactQuotient(a, b, 0) : a / b;
+}
 
-float root(float x) { return EXACT_MATH ? exactRoot(x, 0) : sqrt(x); }
+float root(float x) { return MATH == MATH_NATIVE ? sqrt(x) : exactRoot(x, 0); }
 
 // Own selects: built-in min, max and abs differ between compilers in the sign of zero.
 float min2(float a, float b) { return b < a ? b : a; }

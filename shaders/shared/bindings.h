@@ -43,13 +43,18 @@ SHARED_CONST uint SPEC_GROUP_WIDTH = 0u;   // workgroup shape [invocations]
 SHARED_CONST uint SPEC_GROUP_HEIGHT = 1u;
 SHARED_CONST uint SPEC_STACK_SIZE = 2u;    // entries, as many as the trees need (device/walked_tree.h)
 SHARED_CONST uint SPEC_ORDER = 3u;         // one of ORDER_*
-SHARED_CONST uint SPEC_EXACT_MATH = 4u;    // 1: division and root made exact (pathtrace/exact.glsl)
+SHARED_CONST uint SPEC_MATH = 4u;          // one of MATH_*
 SHARED_CONST uint SPEC_FEATURES = 5u;      // what the scene has: FEATURE_* of features.h
 SHARED_CONST uint SPEC_NODE_WIDTH = 6u;    // children of a node: 2, or 4 for the wide tree
 SHARED_CONST uint SPEC_STACK_IN_REGISTERS = 7u;  // 1: with NODE_WIDTH 4 only
 SHARED_CONST uint SPEC_WAVE_RESUMES = 8u;  // 1: walks that run out of steps are saved (kernels/wave_trace.comp)
 SHARED_CONST uint SPEC_UNIFORMS_HIDDEN = 9u;  // 1: see kernels/uniforms.glsl
 SHARED_CONST uint SPEC_COUNT = 10u;
+
+// How division and root come to be C++'s (pathtrace/exact.glsl).
+SHARED_CONST uint MATH_NATIVE = 0u;    // the device's own
+SHARED_CONST uint MATH_INTEGERS = 1u;  // made exact by integers
+SHARED_CONST uint MATH_FUSED = 2u;     // division by fused multiply-add, root by integers
 
 // Order in which the children of a node are visited. It changes the counters, never a hit.
 SHARED_CONST uint ORDER_NEAR_FIRST = 0u;

@@ -55,9 +55,9 @@ std::vector<glm::uvec2> operandPairs(size_t count, uint64_t seed)
 
 class ExactMath : public DeviceTest {
 protected:
-    static std::vector<glm::uvec2> onDevice(Context& context, std::vector<glm::uvec2>& pairs, int nudge)
+    static std::vector<glm::uvec4> onDevice(Context& context, std::vector<glm::uvec2>& pairs, int nudge)
     {
-        std::vector<glm::uvec2> results(pairs.size());
+        std::vector<glm::uvec4> results(pairs.size());
         ComputeParameters parameters;
         parameters.groups = {256, static_cast<uint32_t>(pairs.size() / 64 / 256), 1};
         parameters.pushConstants = std::as_bytes(std::span(&nudge, 1));
@@ -69,14 +69,16 @@ protected:
 
     /// How far the guess may be moved: it may be off by 3 units, of which the device's own takes up to 2 (NVIDIA's
     /// does).
-    static int largestNudge(Context& context) { return dividesExactly(context) ? 3 : 1; }
+    static int largestNudge(Context& context) { return areExact(probeMath(context)) ? 3 : 1; }
 
-    static uint64_t wrongResults(const std::vector<glm::uvec2>& pairs, const std::vector<glm::uvec2>& results)
+    ///   fused  whether division by fused multiply-add must be right too: not where a device rounds twice
+    static uint64_t wrongResults(const std::vector<glm::uvec2>& pairs, const std::vector<glm::uvec4>& results, bool fused)
     {
         uint64_t wrong = 0;
         for (size_t i = 0; i < pairs.size(); i++) {
             float a = std::bit_cast<float>(pairs[i].x), b = std::bit_cast<float>(pairs[i].y);
             wrong += !sameNumber(results[i].x, a / b) + !sameNumber(results[i].y, std::sqrt(a));
+            wrong += fused && !sameNumber(results[i].z, a / b);
         }
         return wrong;
     }
@@ -88,34 +90,44 @@ TEST_F(ExactMath, isCppsDivisionAndRootHoweverTheGuessIsOff)
 {
     auto context = openFirstContext();
     const int most = largestNudge(*context);
+    const bool fused = areFused(probeMath(*context));
     for (int nudge = -most; nudge <= most; nudge++) {
         auto pairs = operandPairs(BATCH, 10 + static_cast<uint64_t>(nudge + 3));
-        EXPECT_EQ(wrongResults(pairs, onDevice(*context, pairs, nudge)), 0u) << nudge;
+        EXPECT_EQ(wrongResults(pairs, onDevice(*context, pairs, nudge), fused), 0u) << nudge;
     }
 }
 
 TEST_F(ExactMath, isChosenWhereTheDeviceDividesOtherwise_whichNoSoftwareOneDoes)
 {
     auto context = openFirstContext();
-    const bool divides = dividesExactly(*context);
+    const MathProbe probe = probeMath(*context);
+    const bool divides = areExact(probe);
     if (context->physical.kind == "software") {
         EXPECT_TRUE(divides);
     }
-    EXPECT_EQ(chooseExactMath(*context, DeviceOptions::Math::automatic), !divides);
-    EXPECT_TRUE(chooseExactMath(*context, DeviceOptions::Math::exact));
+    EXPECT_EQ(chooseMath(*context, DeviceOptions::Math::automatic),
+              divides ? MATH_NATIVE : (areFused(probe) ? MATH_FUSED : MATH_INTEGERS));
+    EXPECT_EQ(chooseMath(*context, DeviceOptions::Math::exact), MATH_INTEGERS);
+    EXPECT_EQ(chooseMath(*context, DeviceOptions::Math::native), MATH_NATIVE);
 }
 
 TEST_F(ExactMath, wouldBeSeenToBeNeededFromOneWrongBit)
 {
-    const std::vector<glm::vec2> operands = {{1, 3}, {2, 7}, {5, 0x1.fffffep-1f}};
-    std::vector<glm::vec2> results;
-    for (glm::vec2 pair : operands) results.emplace_back(pair.x / pair.y, std::sqrt(pair.x));
-    EXPECT_TRUE(areExact(operands, results));
-    for (size_t i = 0; i < results.size(); i++) {
-        for (int k = 0; k < 2; k++) {
-            auto wrong = results;
-            wrong[i][k] = std::nextafter(wrong[i][k], 100.0f);
-            EXPECT_FALSE(areExact(operands, wrong)) << i << ", " << k;
+    MathProbe right;
+    right.operands = {{1, 3}, {2, 7}, {5, 0x1.fffffep-1f}};
+    for (glm::vec2 pair : right.operands) {
+        const float quotient = pair.x / pair.y;
+        right.results.emplace_back(quotient, std::sqrt(pair.x), quotient,
+                                   std::fma(pair.x, pair.y, -(pair.x * pair.y)));
+    }
+    EXPECT_TRUE(areExact(right));
+    EXPECT_TRUE(areFused(right));
+    for (size_t i = 0; i < right.results.size(); i++) {
+        for (int k = 0; k < 4; k++) {
+            MathProbe wrong = right;
+            wrong.results[i][k] = std::nextafter(wrong.results[i][k], 100.0f);
+            EXPECT_EQ(areExact(wrong), k >= 2) << i << ", " << k;
+            EXPECT_EQ(areFused(wrong), k < 2) << i << ", " << k;
         }
     }
 }
@@ -126,10 +138,11 @@ TEST_F(LongExactMath, dividesABillionPairsAsCppDoes)
 {
     auto context = openFirstContext();
     const int most = largestNudge(*context);
+    const bool fused = areFused(probeMath(*context));
     for (uint64_t batch = 0; batch < 954; batch++) {
         auto pairs = operandPairs(BATCH, 100 + batch);
         int nudge = static_cast<int>(batch % (2 * most + 1)) - most;
-        ASSERT_EQ(wrongResults(pairs, onDevice(*context, pairs, nudge)), 0u) << batch;
+        ASSERT_EQ(wrongResults(pairs, onDevice(*context, pairs, nudge), fused), 0u) << batch;
     }
 }
 
@@ -139,7 +152,7 @@ TEST_F(LongExactMath, takesTheRootOfEveryNormalNumberAsCppDoes)
     std::vector<glm::uvec2> numbers(BATCH * 8, glm::uvec2(0, 0x3f800000u));
     for (uint64_t first = 0x00800000u; first < 0x7f800000u; first += numbers.size()) {
         for (size_t i = 0; i < numbers.size(); i++) numbers[i].x = static_cast<uint32_t>(first + i);
-        ASSERT_EQ(wrongResults(numbers, onDevice(*context, numbers, 0)), 0u) << first;
+        ASSERT_EQ(wrongResults(numbers, onDevice(*context, numbers, 0), false), 0u) << first;
     }
 }
 
@@ -150,6 +163,7 @@ TEST(ExactMathInCpp, isCppsDivisionAndRootHoweverTheGuessIsOff)
         for (glm::uvec2 pair : operandPairs(BATCH, 77)) {
             float a = std::bit_cast<float>(pair.x), b = std::bit_cast<float>(pair.y);
             ASSERT_TRUE(sameNumber(std::bit_cast<uint32_t>(kernel.exactQuotient(a, b, nudge)), a / b)) << a << " / " << b;
+            ASSERT_TRUE(sameNumber(std::bit_cast<uint32_t>(kernel.fusedQuotient(a, b, nudge)), a / b)) << a << " / " << b;
             ASSERT_TRUE(sameNumber(std::bit_cast<uint32_t>(kernel.exactRoot(a, nudge)), std::sqrt(a))) << a;
         }
     }

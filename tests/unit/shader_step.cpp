@@ -88,6 +88,7 @@ TEST(Whitelist, letsCorrectlyRoundedArithmeticPass)
         EXPECT_TRUE(refusedInstructions(moduleWith({op, 1, 50, 10, 11})).empty()) << op;
     }
     EXPECT_TRUE(refusedInstructions(moduleWith({spv::OpExtInst, 1, 50, 9, GLSLstd450Sqrt, 10})).empty());
+    EXPECT_TRUE(refusedInstructions(moduleWith({spv::OpExtInst, 1, 50, 9, GLSLstd450Fma, 10, 11, 12})).empty());
     EXPECT_TRUE(refusedInstructions(moduleWith({spv::OpIMul, 3, 50, 10, 11})).empty());
 }
 
@@ -97,7 +98,7 @@ TEST(Whitelist, refusesWhatDevicesRoundDifferently)
                         spv::OpFMod, spv::OpFRem, spv::OpOuterProduct, spv::OpDPdx}) {
         EXPECT_FALSE(refusedInstructions(moduleWith({op, 1, 50, 10, 11})).empty()) << op;
     }
-    for (uint32_t function : {GLSLstd450Fma, GLSLstd450Normalize, GLSLstd450Length, GLSLstd450FMix, GLSLstd450Sin,
+    for (uint32_t function : {GLSLstd450Normalize, GLSLstd450Length, GLSLstd450FMix, GLSLstd450Sin,
                               GLSLstd450Pow, GLSLstd450InverseSqrt, GLSLstd450FMin, GLSLstd450FAbs}) {
         EXPECT_FALSE(refusedInstructions(moduleWith({spv::OpExtInst, 2, 50, 9, function, 10})).empty()) << function;
     }

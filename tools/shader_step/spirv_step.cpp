@@ -78,7 +78,8 @@ bool isExactMove(spv::Op op)
 
 bool isExactBuiltIn(uint32_t instruction)
 {
-    return instruction == GLSLstd450Floor || instruction == GLSLstd450Sqrt;
+    // Fma is as exact as the device's own: kernels use it where the host saw that it rounds once
+    return instruction == GLSLstd450Floor || instruction == GLSLstd450Sqrt || instruction == GLSLstd450Fma;
 }
 
 /// Ids of the module's float types and vectors of them.
