@@ -196,6 +196,7 @@ struct DeviceOptions {
     uint32_t stepBudget = 0;           ///< 0: by the driver; steps one invocation takes a dispatch
     uint32_t waveSlots = 0;            ///< 0: by the driver; paths under way at a time, where they go in waves
     bool beginsAhead = false;          ///< for tests: expectTile() has an effect on any device, however slow
+    bool trustsLoops = false;          ///< for tests: walks that are short go unwatched, whatever the driver does to loops
     bool validation = false;           ///< Khronos validation with synchronization checks, if installed
 };
 

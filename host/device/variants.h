@@ -12,6 +12,7 @@ struct Variant {
     uint32_t groupWidth = 8, groupHeight = 8;
     uint32_t samplesAtOnce = 0;     ///< that a dispatch may take a pixel further
     bool stackInRegisters = false;  ///< wherever a wide tree is no higher than there are registers
+    bool stepByStep = false;  ///< walks go on by one node and one primitive at a time
     enum class Paths {
         whole,        ///< one kernel takes a path to its end
         waves,        ///< kernels take all paths a ray further in turns; queues are filled by ballots

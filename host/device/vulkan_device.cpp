@@ -13,6 +13,7 @@
 #include "device/vulkan_wave.h"
 #include "device/walked_tree.h"
 #include "shared/bindings.h"
+#include "shared/features.h"
 #include "util/memory.h"
 #include "util/parallel.h"
 #include "vulkan/pipeline.h"
@@ -65,6 +66,7 @@ public:
 private:
     ComputePipeline makePipeline(const std::string& kernel, uint32_t bindingCount,
                                  uint32_t pushConstantBytes = sizeof(Dispatch), bool waveResumes = false);
+    bool watchesWalks(size_t primitives, uint32_t features) const;
     void preparePipeline(bool texel, uint32_t features, const WalkForm& form);
     void prepareTileBuffers(size_t pixels);
     void prepareFirstHits(size_t pixels);
@@ -123,6 +125,15 @@ VulkanDevice::VulkanDevice(std::unique_ptr<Context> context, const DeviceOptions
     statistics_.exactMath = math_ != MATH_NATIVE;
 }
 
+/// Walks are watched where the driver may cut loops, where one might take long, and where somebody says how many steps it
+/// may take.
+bool VulkanDevice::watchesWalks(size_t primitives, uint32_t features) const
+{
+    const bool trusted = options_.trustsLoops || !mayCutLoops(context_->physical.driver);
+    return !trusted || options_.stepBudget != 0 || (features & FEATURE_INSTANCES) != 0 ||
+           primitives > SHORT_WALK_PRIMITIVES;
+}
+
 DeviceInfo VulkanDevice::info() const
 {
     const PhysicalDevice& device = context_->physical;
@@ -139,6 +150,7 @@ void VulkanDevice::expectScene(const SceneOutline& outline)
     fewSamples_ = outline.samples <= FEW_SAMPLES;
     WalkForm form = expectedWalkForm(outline.primitives, options_.nodeWidth, variant_.stackInRegisters, fewSamples_);
     form.stackEntries = chooseStackSize(form.stackEntries);
+    form.watched = watchesWalks(outline.primitives, outline.features);
     preparePipeline(texel, outline.features, form);
 }
 
@@ -150,6 +162,7 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     firstHitsBound_ = false;
     WalkForm form = walkFormFor(scene, options_.nodeWidth, variant_.stackInRegisters);
     form.stackEntries = chooseStackSize(form.stackEntries);
+    form.watched = watchesWalks(scene.primitives.size(), featuresOf(scene));
     if (serves(pipelineForm_, form, std::exchange(fewSamples_, false))) form = pipelineForm_;
     auto start = std::chrono::steady_clock::now();
     auto uploaded = std::make_unique<VulkanScene>(
@@ -181,6 +194,8 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     constants[SPEC_GROUP_HEIGHT] = group_[1];
     constants[SPEC_STACK_SIZE] = pipelineForm_.stackEntries;
     constants[SPEC_STACK_IN_REGISTERS] = pipelineForm_.stackInRegisters ? 1 : 0;
+    constants[SPEC_WATCHED] = pipelineForm_.watched ? 1 : 0;
+    constants[SPEC_STEP_BY_STEP] = variant_.stepByStep ? 1 : 0;
     constants[SPEC_NODE_WIDTH] = pipelineForm_.nodeWidth;
     constants[SPEC_ORDER] = options_.traversalOrder;
     constants[SPEC_MATH] = math_;

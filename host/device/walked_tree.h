@@ -12,9 +12,14 @@ struct WalkForm {
     uint32_t nodeWidth = 2;
     uint32_t stackEntries = 0;  ///< that the scene's trees need
     bool stackInRegisters = false;
+    bool watched = true;  ///< walks count their steps, stop when these are spent, and see that loops are cut
 
     bool operator==(const WalkForm&) const = default;
 };
+
+/// A walk through a scene of so many primitives, without instances, takes a million steps at most: a second, if it should
+/// ever meet them all, which watchdogs stand. It need not be able to stop midway for the sake of time.
+constexpr size_t SHORT_WALK_PRIMITIVES = size_t{1} << 19;
 
 /// Entries that a stack of references needs beyond those that can wait: a wide node writes three at
 /// once (pathtrace/wide.glsl).
@@ -51,7 +56,7 @@ inline WalkForm expectedWalkForm(size_t primitives, uint32_t wantedWidth, bool w
 /// Whether a kernel made for the one form is to serve the other. An array costs nothing for being too large; registers do.
 inline bool serves(const WalkForm& made, const WalkForm& needed, bool fewSamples)
 {
-    return made.nodeWidth == needed.nodeWidth && made.stackInRegisters == needed.stackInRegisters &&
+    return made.nodeWidth == needed.nodeWidth && made.watched == needed.watched && made.stackInRegisters == needed.stackInRegisters &&
            made.stackEntries >= needed.stackEntries && (!made.stackInRegisters || fewSamples);
 }
 

@@ -35,6 +35,7 @@ struct Kernel {
     static constexpr uint STACK_SIZE = MAX_STACK_SIZE;
     static constexpr uint NODE_WIDTH = NodeWidth;
     static constexpr bool STACK_IN_REGISTERS = false;
+    static constexpr bool STEP_BY_STEP = false;
     static constexpr bool WALKS_ARE_WATCHED = Watched;
     static constexpr bool BRANCHES_ARE_GUESSED = true;
     static constexpr uint TRAVERSAL_ORDER = Order;

@@ -75,13 +75,14 @@ void main()
     } else {
         path.phase = PHASE_ENDED;
     }
-    while (block.samplesDone != wanted && stepsLeft != 0u && faults == 0u) {
+    for (;;) {  // the end stands behind the work: see traverse.glsl
         if (path.phase == PHASE_ENDED) {
             tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
             path = beginPath(job.tileX + at.x, job.tileY + at.y, job.firstSample + block.samplesDone);
             walk = beginPathTraversal(path);
         }
         stepSample(path, walk, block);
+        if (block.samplesDone == wanted || stepsLeft == 0u || faults != 0u) break;
     }
     if (block.samplesDone != wanted && stepsLeft != 0u) faults |= FAULT_LOOP_CUT;
 

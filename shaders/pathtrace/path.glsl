@@ -214,9 +214,12 @@ void stepPath(INOUT(PathState) path, INOUT(Traversal) walk)
     walk = beginPathTraversal(path);
 }
 
-/// Takes a path as far as the steps allow: until it has ended, stepsLeft is 0, or a fault.
+/// Takes a path that has not ended as far as the steps allow: until it has, stepsLeft is 0, or a fault.
 void advancePath(INOUT(PathState) path, INOUT(Traversal) walk)
 {
-    while (path.phase != PHASE_ENDED && stepsLeft != 0u && faults == 0u) stepPath(path, walk);
+    for (;;) {
+        stepPath(path, walk);
+        if (path.phase == PHASE_ENDED || stepsLeft == 0u || faults != 0u) break;
+    }
     if (path.phase != PHASE_ENDED && stepsLeft != 0u) faults |= FAULT_LOOP_CUT;
 }

@@ -1,7 +1,7 @@
 // The path tracer, in the order in which a path meets its parts. The includer provides the buffers
-// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, STACK_IN_REGISTERS, WALKS_ARE_WATCHED, BRANCHES_ARE_GUESSED,
-// NODE_WIDTH, TRAVERSAL_ORDER, MATH, FEATURES, fusedMultiplyAdd(), the macros OUT and INOUT, and what four.glsl and
-// axes.glsl have.
+// (loadNode, loadPrimitive, ...), `frame`, STACK_SIZE, STACK_IN_REGISTERS, STEP_BY_STEP, WALKS_ARE_WATCHED,
+// BRANCHES_ARE_GUESSED, NODE_WIDTH, TRAVERSAL_ORDER, MATH, FEATURES, fusedMultiplyAdd(), the macros OUT and INOUT, and
+// what four.glsl and axes.glsl have.
 
 // Invocation-wide state.
 struct Tally

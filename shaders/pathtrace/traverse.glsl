@@ -160,15 +160,27 @@ uint visitNode(BoxRay boxes, INOUT(Traversal) walk)
     return popRef(walk);
 }
 
-/// Visits all primitives of the leaf that the walk is at; returns how many.
+uint firstOfLeaf(uint leaf) { return (leaf & ~REF_LEAF) >> LEAF_COUNT_BITS; }
+
+bool hasMoreThanOne(uint leaf) { return (leaf & (MAX_LEAF_SIZE - 1u)) != 0u; }
+
+/// The leaf without its first primitive; it must have more than one.
+uint leafWithoutFirst(uint leaf) { return leaf + (1u << LEAF_COUNT_BITS) - 1u; }
+
+/// Visits all primitives of the leaf that the walk is at, or the first one STEP_BY_STEP; returns how many.
 uint visitLeaf(READ(WalkRay) ray, INOUT(Traversal) walk)
 {
-    uint first = (walk.ref & ~REF_LEAF) >> LEAF_COUNT_BITS;
+    uint first = firstOfLeaf(walk.ref);
+    if (STEP_BY_STEP) {
+        visitPrimitive(ray, first, walk);
+        return 1u;
+    }
     uint count = (walk.ref & (MAX_LEAF_SIZE - 1u)) + 1u;
     uint i = 0u;
-    while (i < count) {
+    for (;;) {
         visitPrimitive(ray, first + i, walk);
         i++;
+        if (i >= count) break;
     }
     if (WALKS_ARE_WATCHED && i != count) faults |= FAULT_LOOP_CUT;
     return count;
@@ -204,6 +216,14 @@ bool mayGoOn(uint steps) { return !WALKS_ARE_WATCHED || steps != 0u; }
 /// Walks on until the closest hit (or, for anyHit, some hit) is known or the steps are spent.
 /// Returns true when the walk is over. Where walks are watched, every loop says whether it ended by its own condition:
 /// a driver that cuts a loop short leaves a fault behind.
+///
+/// A turn of the outer loop goes through nodes until there is a leaf, and visits all of it (while-while). STEP_BY_STEP it
+/// is one node and one primitive at most, so that invocations in step never wait for one that has a long way to its next
+/// leaf, or a large leaf (if-if; both are compared by Aila and Laine 2009, "Understanding the Efficiency of Ray Traversal
+/// on GPUs"). Order and number of the visits are the same.
+///
+/// Here as in all loops that take time, what ends the loop stands behind its work: drivers that run invocations in step,
+/// with a mask of who takes part, ask whether anybody is left only there, and would run the work once more for nobody.
 bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) state)
 {
     Traversal walk = state;  // nothing else has a name for it, so that C++ may keep it in registers
@@ -211,33 +231,44 @@ bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) state)
     uint nodesVisited = 0u;
     uint primitivesVisited = 0u;
     WalkRay ray = walkRayOf(walk, org, dir);
-    while (walk.ref != REF_NONE && mayGoOn(steps)) {
-        while ((walk.ref & REF_NOT_INNER) == 0u && mayGoOn(steps)) {
-            steps--;
-            nodesVisited++;
-            if (NODE_WIDTH == 4u) {
-                walk.ref = visitWideNode(ray.onGrid, walk);
-            } else {
-                walk.ref = visitNode(ray.boxes, walk);
+    for (;;) {
+        if ((walk.ref & REF_NOT_INNER) == 0u) {
+            for (;;) {
+                steps--;
+                nodesVisited++;
+                if (NODE_WIDTH == 4u) {
+                    walk.ref = visitWideNode(ray.onGrid, walk);
+                } else {
+                    walk.ref = visitNode(ray.boxes, walk);
+                }
+                if (STEP_BY_STEP || (walk.ref & REF_NOT_INNER) != 0u || !mayGoOn(steps)) break;
             }
         }
-        if (WALKS_ARE_WATCHED && (walk.ref & REF_NOT_INNER) == 0u && steps != 0u) faults |= FAULT_LOOP_CUT;
+        bool amongNodes = (walk.ref & REF_NOT_INNER) == 0u;
+        if (WALKS_ARE_WATCHED && !STEP_BY_STEP && amongNodes && steps != 0u) faults |= FAULT_LOOP_CUT;
         if (walk.ref == REF_NONE || (WALKS_ARE_WATCHED && (steps == 0u || faults != 0u))) break;
 
-        if (HAS_INSTANCES && (walk.ref & REF_LEAF) == 0u) {
-            steps--;
-            changeSpace(org, dir, ray, walk);
-        } else {
-            uint count = visitLeaf(ray, walk);
-            primitivesVisited += count;
-            steps = steps > count ? steps - count : 0u;
-            walk.ref = anyHit && walk.slot != NO_HIT ? REF_NONE : popRef(walk);
+        if (!amongNodes) {
+            if (HAS_INSTANCES && (walk.ref & REF_LEAF) == 0u) {
+                steps--;
+                changeSpace(org, dir, ray, walk);
+            } else {
+                uint count = visitLeaf(ray, walk);
+                primitivesVisited += count;
+                steps = steps > count ? steps - count : 0u;
+                if (STEP_BY_STEP && hasMoreThanOne(walk.ref)) {
+                    walk.ref = leafWithoutFirst(walk.ref);
+                } else {
+                    walk.ref = anyHit && walk.slot != NO_HIT ? REF_NONE : popRef(walk);
+                }
+            }
         }
+        if (walk.ref == REF_NONE || !mayGoOn(steps)) break;
     }
     if (WALKS_ARE_WATCHED && walk.ref != REF_NONE && steps != 0u) faults |= FAULT_LOOP_CUT;
     tally.boxTests += NODE_WIDTH * nodesVisited;
     tally.primitiveTests += primitivesVisited;
-    stepsLeft = steps;
+    stepsLeft = WALKS_ARE_WATCHED ? steps : stepsLeft - lesserUint(stepsLeft, nodesVisited + primitivesVisited);
     state = walk;
     return walk.ref == REF_NONE;
 }

@@ -49,7 +49,9 @@ SHARED_CONST uint SPEC_NODE_WIDTH = 6u;    // children of a node: 2, or 4 for th
 SHARED_CONST uint SPEC_STACK_IN_REGISTERS = 7u;  // 1: with NODE_WIDTH 4 only
 SHARED_CONST uint SPEC_WAVE_RESUMES = 8u;  // 1: walks that run out of steps are saved (kernels/wave_trace.comp)
 SHARED_CONST uint SPEC_UNIFORMS_HIDDEN = 9u;  // 1: see kernels/uniforms.glsl
-SHARED_CONST uint SPEC_COUNT = 10u;
+SHARED_CONST uint SPEC_STEP_BY_STEP = 10u;  // 1: a walk's loop is one node and one primitive (pathtrace/traverse.glsl)
+SHARED_CONST uint SPEC_WATCHED = 11u;      // 1: walks stop when their steps are spent, and see that loops are cut
+SHARED_CONST uint SPEC_COUNT = 12u;
 
 // How division and root come to be C++'s (pathtrace/exact.glsl).
 SHARED_CONST uint MATH_NATIVE = 0u;    // the device's own

@@ -150,6 +150,16 @@ TEST_F(SameBits, forEveryVariantThatCanBeTuned)
     }
 }
 
+TEST_F(SameBits, whereWalksAreNotWatched_stepByStepOrNot)
+{
+    for (const char* variant : {"texel-8x8-by8", "texel-8x8-by8-steps", "texel-8x8-by8-registers-steps", "texel-wave-steps"}) {
+        DeviceOptions options;
+        options.variant = variant;
+        options.trustsLoops = true;
+        EXPECT_TRUE(onDevice(options) == reference()) << variant;
+    }
+}
+
 TEST_F(SameBits, throughStorageBuffersAndTexelBuffers)
 {
     DeviceOptions options;

@@ -1,4 +1,5 @@
 // Variants of the kernels by name, and what tuning keeps for later starts.
+#include "device/driver_habits.h"
 #include "device/variants.h"
 #include "support/temporary_folder.h"
 #include "util/error.h"
@@ -32,6 +33,8 @@ TEST(Variants, haveNamesThatLeadBackToThem)
     EXPECT_EQ(names.size(), allVariants().size());
     EXPECT_TRUE(names.contains("texel-8x8-by8"));
     EXPECT_TRUE(names.contains("texel-8x8-by8-registers"));
+    EXPECT_TRUE(names.contains("texel-8x8-by8-registers-steps"));
+    EXPECT_TRUE(names.contains("storage-wave-steps"));
 }
 
 TEST(Variants, areStandardByDriver)
@@ -39,6 +42,24 @@ TEST(Variants, areStandardByDriver)
     EXPECT_TRUE(standardVariant("llvmpipe Mesa 22.3.6 (LLVM 15.0.6)").stackInRegisters);
     EXPECT_FALSE(standardVariant("SwiftShader driver Subzero").stackInRegisters);
     EXPECT_FALSE(standardVariant("").stackInRegisters);
+    EXPECT_TRUE(standardVariant("NVIDIA 580.159.04").stepByStep);
+    EXPECT_TRUE(standardVariant("llvmpipe Mesa 25.0.7-2 (LLVM 19.1.7)").stepByStep);
+    for (const char* driver : {"llvmpipe Mesa 22.3.6 (LLVM 15.0.6)", "SwiftShader driver Subzero", ""})
+        EXPECT_FALSE(standardVariant(driver).stepByStep) << driver;
+}
+
+TEST(DriverHabits, loopsAreTakenToBeCutByAllWhoAreNotKnownBetter)
+{
+    EXPECT_FALSE(mayCutLoops("NVIDIA 580.159.04"));
+    for (const char* driver : {"llvmpipe Mesa 25.0.7 (LLVM 19.1.7)", "SwiftShader driver Subzero", "radv Mesa 25.0.7", ""})
+        EXPECT_TRUE(mayCutLoops(driver)) << driver;
+}
+
+TEST(DriverHabits, kernelsAreCompiledForUniformsByLavapipeBefore25)
+{
+    EXPECT_TRUE(compilesForUniforms("llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"));
+    EXPECT_FALSE(compilesForUniforms("llvmpipe Mesa 25.0.7 (LLVM 19.1.7)"));
+    EXPECT_FALSE(compilesForUniforms("NVIDIA 580.159.04"));
 }
 
 TEST(Variants, ofOtherNamesAreRefusedWithAList)
