@@ -248,19 +248,19 @@ bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) state)
         if (WALKS_ARE_WATCHED && !STEP_BY_STEP && amongNodes && steps != 0u) faults |= FAULT_LOOP_CUT;
         if (walk.ref == REF_NONE || (WALKS_ARE_WATCHED && (steps == 0u || faults != 0u))) break;
 
-        if (!amongNodes) {
-            if (HAS_INSTANCES && (walk.ref & REF_LEAF) == 0u) {
-                steps--;
-                changeSpace(org, dir, ray, walk);
+        if (STEP_BY_STEP && amongNodes) continue;
+
+        if (HAS_INSTANCES && (walk.ref & REF_LEAF) == 0u) {
+            steps--;
+            changeSpace(org, dir, ray, walk);
+        } else {
+            uint count = visitLeaf(ray, walk);
+            primitivesVisited += count;
+            steps = steps > count ? steps - count : 0u;
+            if (STEP_BY_STEP && hasMoreThanOne(walk.ref)) {
+                walk.ref = leafWithoutFirst(walk.ref);
             } else {
-                uint count = visitLeaf(ray, walk);
-                primitivesVisited += count;
-                steps = steps > count ? steps - count : 0u;
-                if (STEP_BY_STEP && hasMoreThanOne(walk.ref)) {
-                    walk.ref = leafWithoutFirst(walk.ref);
-                } else {
-                    walk.ref = anyHit && walk.slot != NO_HIT ? REF_NONE : popRef(walk);
-                }
+                walk.ref = anyHit && walk.slot != NO_HIT ? REF_NONE : popRef(walk);
             }
         }
         if (walk.ref == REF_NONE || !mayGoOn(steps)) break;
