@@ -90,7 +90,8 @@ Variant standardVariant(const std::string& driver)
     // The stack in registers: lavapipe 22.3 1.1 to 1.5 times as fast, 25.0 1.0 to 1.1;
     // SwiftShader and NVIDIA's H200 0.8; other drivers are not measured.
     const bool registers = driver.starts_with("llvmpipe");
-    // Step by step: NVIDIA's H200 1.06 to 1.17 times as fast (diffuse rays), lavapipe 25.0 1.0 and 1.04; lavapipe 22.3 0.8.
+    // Step by step: NVIDIA's H200 1.08 and 1.14 times as fast (diffuse rays), lavapipe 25.0 1.0 and 1.04; lavapipe 22.3
+    // 0.8 and 1.0.
     const bool steps = driver.starts_with("NVIDIA ") || isNewLavapipe(driver);
     return {true, 8, 8, BLOCK_SIZE, registers, steps, Variant::Paths::whole};
 }

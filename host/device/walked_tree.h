@@ -56,8 +56,8 @@ inline WalkForm expectedWalkForm(size_t primitives, uint32_t wantedWidth, bool w
 /// Whether a kernel made for the one form is to serve the other. An array costs nothing for being too large; registers do.
 inline bool serves(const WalkForm& made, const WalkForm& needed, bool fewSamples)
 {
-    return made.nodeWidth == needed.nodeWidth && made.watched == needed.watched && made.stackInRegisters == needed.stackInRegisters &&
-           made.stackEntries >= needed.stackEntries && (!made.stackInRegisters || fewSamples);
+    return made.nodeWidth == needed.nodeWidth && made.watched == needed.watched &&
+           made.stackInRegisters == needed.stackInRegisters && made.stackEntries >= needed.stackEntries && (!made.stackInRegisters || fewSamples);
 }
 
 /// The scene with the frame and the instances of the trees of that width.

@@ -1,7 +1,7 @@
 // Division and square root, correctly rounded on devices whose own are not. The device's result is
 // taken as a guess; the exact remainder, an integer, decides the last bits. Right as long as the guess
 // is off by at most 3 units in the last place (Vulkan promises 2.5 for division). Where the device
-// rounds a * b + c once, the remainder of a division is had in floats, by a third of the instructions.
+// rounds a * b + c once, the remainder of a division is had in floats, which takes fewer instructions.
 // The includer provides that as fusedMultiplyAdd(a, b, c).
 //
 // As in C++: not-a-number, infinities, zeros and overflow. Unlike C++: operands and results below
