@@ -57,7 +57,8 @@ inline WalkForm expectedWalkForm(size_t primitives, uint32_t wantedWidth, bool w
 inline bool serves(const WalkForm& made, const WalkForm& needed, bool fewSamples)
 {
     return made.nodeWidth == needed.nodeWidth && made.watched == needed.watched &&
-           made.stackInRegisters == needed.stackInRegisters && made.stackEntries >= needed.stackEntries && (!made.stackInRegisters || fewSamples);
+           made.stackInRegisters == needed.stackInRegisters && made.stackEntries >= needed.stackEntries &&
+           (!made.stackInRegisters || fewSamples);
 }
 
 /// The scene with the frame and the instances of the trees of that width.
