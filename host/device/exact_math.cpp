@@ -48,7 +48,8 @@ bool areFused(const MathProbe& probe)
 MathProbe probeMath(Context& context)
 {
     std::mt19937 random(1);
-    const uint32_t fitting = context.physical.properties.limits.maxStorageBufferRange / sizeof(glm::vec4);
+    constexpr uint32_t RESULT_BYTES = sizeof(glm::vec4);
+    const uint32_t fitting = context.physical.properties.limits.maxStorageBufferRange / RESULT_BYTES;
     const uint32_t pairs = std::min(PAIRS, fitting / GROUP * GROUP);
     MathProbe probe;
     std::vector<glm::vec2>& operands = probe.operands;
