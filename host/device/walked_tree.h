@@ -17,8 +17,8 @@ struct WalkForm {
     bool operator==(const WalkForm&) const = default;
 };
 
-/// A walk through a scene of so many primitives, without instances, takes a million steps at most: a second, if it should
-/// ever meet them all, which watchdogs stand. It need not be able to stop midway for the sake of time.
+/// A walk through a scene of so many primitives, without instances, takes 2^20 steps at most, even if it should meet all: 16
+/// times what a card is given for a path in a dispatch. It need not be able to stop midway for the sake of time.
 constexpr size_t SHORT_WALK_PRIMITIVES = size_t{1} << 19;
 
 /// Entries that a stack of references needs beyond those that can wait: a wide node writes three at
