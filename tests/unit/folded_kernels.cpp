@@ -9,6 +9,7 @@
 #include "spirv_step.h"
 
 #include <gtest/gtest.h>
+#include <spirv/unified1/GLSL.std.450.h>
 #include <spirv/unified1/spirv.hpp>
 
 #include <cstdlib>
@@ -65,6 +66,24 @@ TEST_F(FoldedKernels, holdNoFloatInstructionThatDiffersBetweenDevices)
         for (uint32_t features : FEATURE_SETS)
             EXPECT_TRUE(shader_step::refusedInstructions(folded(kernel, features)).empty())
                 << kernel << features;
+}
+
+bool isFusedMultiplyAdd(spv::Op op, const uint32_t* words)
+{
+    return op == spv::OpExtInst && words[4] == GLSLstd450Fma;
+}
+
+TEST_F(FoldedKernels, fuseMultiplyAddOnlyWhereTheyAreToldThatTheDeviceRoundsItOnce)
+{
+    for (uint32_t math : {MATH_NATIVE, MATH_INTEGERS, MATH_FUSED}) {
+        std::vector<uint32_t> constants = constantsFor(FEATURES_ALL);
+        constants[SPEC_MATH] = math;
+        for (const char* kernel : KERNELS) {
+            const std::span<const uint32_t> words = foldedKernel(kernel, constants);
+            const size_t fused = count({words.begin(), words.end()}, isFusedMultiplyAdd);
+            EXPECT_EQ(fused > 0, math == MATH_FUSED) << kernel << ", " << math;
+        }
+    }
 }
 
 TEST_F(FoldedKernels, keepAllFloatArithmeticDecorated)
