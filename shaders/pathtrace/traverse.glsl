@@ -233,7 +233,8 @@ bool traverse(vec3 org, vec3 dir, bool anyHit, INOUT(Traversal) state)
     WalkRay ray = walkRayOf(walk, org, dir);
     for (;;) {
         if ((walk.ref & REF_NOT_INNER) == 0u) {
-            for (;;) {
+            // Also in front: without it SwiftShader computes other hits where the stack is in registers
+            while ((walk.ref & REF_NOT_INNER) == 0u) {
                 steps--;
                 nodesVisited++;
                 if (NODE_WIDTH == 4u) {

@@ -150,6 +150,15 @@ TEST_F(SameBits, forEveryVariantThatCanBeTuned)
     }
 }
 
+TEST_F(SameBits, whateverAWalkKeepsItsStackIn_stepByStepOrNot)
+{
+    for (const char* walk : {"", "-registers", "-steps", "-registers-steps"}) {
+        DeviceOptions options;
+        options.variant = std::string("storage-8x8-by8") + walk;
+        EXPECT_TRUE(onDevice(options) == reference()) << options.variant;
+    }
+}
+
 TEST_F(SameBits, whereWalksAreNotWatched_stepByStepOrNot)
 {
     for (const char* variant : {"texel-8x8-by8", "texel-8x8-by8-steps", "texel-8x8-by8-registers-steps", "texel-wave-steps"}) {
