@@ -122,6 +122,7 @@ Json statisticsJson(const PreparedScene& prepared, const Film& film, Device& dev
           {"texelBuffers", work.texelBuffers},
           {"variant", work.variant},
           {"exactMath", work.exactMath},
+          {"walksWatched", work.walksWatched},
           {"sceneBytes", work.sceneBytes},
           {"pipelines", work.pipelines},
           {"dispatches", work.dispatches},

@@ -81,6 +81,7 @@ struct DeviceStatistics {
     bool exactMath = false;     ///< division and root made exact rather than the device's own
     bool texelBuffers = false;  ///< scene read through texel buffers rather than storage buffers
     uint32_t pipelines = 0;     ///< that were made of kernels
+    bool walksWatched = false;  ///< on the device: walks count their steps, and say where a loop was cut
     uint64_t tilesBegunAhead = 0;  ///< that were asked for and under way already (see expectTile())
     std::string variant;        ///< way in which kernels run (variants.h); empty on the CPU
 };

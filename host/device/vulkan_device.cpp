@@ -216,6 +216,7 @@ void VulkanDevice::preparePipeline(bool texel, uint32_t features, const WalkForm
     pipelineForm_ = form;
     pipelineTexel_ = texel;
     pipelineFeatures_ = features;
+    statistics_.walksWatched = form.watched;
     firstHitsPipeline_ = {};
     firstHitsBound_ = false;
     tracePipeline_ = {};
