@@ -12,6 +12,7 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <istream>
 #include <set>
@@ -46,6 +47,10 @@ struct Elements {
     size_t count = 0, soFar = 0;
 };
 
+struct ObjCorner {
+    uint32_t position, normal, uv;  ///< as in MeshTriangle
+};
+
 struct ObjReading {
     std::string file;  ///< for messages
     PathPolicy policy;
@@ -56,6 +61,8 @@ struct ObjReading {
     uint32_t material = NO_HIT;                     ///< in force; NO_HIT: none named yet
     Statement statement;                            ///< the current one
     size_t corners = 0;                             ///< of the current face
+    std::vector<ObjCorner> face;                    ///< these, from one face to the next so that its memory stays
+    std::vector<vec3> facePoints;                   ///< where they are
     Omission shortFaces, linesAndPoints, unknown, fans, badNormals, vertexColors;
     std::vector<std::string> missingMaterials;
 };
@@ -172,37 +179,42 @@ uint32_t useMaterial(ObjReading& reading, const ObjMaterial& material)
     return entry->second;
 }
 
+void addTriangle(ObjReading& reading, const std::array<uint32_t, 3>& cornersOfFace)
+{
+    MeshTriangle triangle;
+    triangle.material = reading.material;
+    for (size_t k = 0; k < 3; k++) {
+        const ObjCorner& corner = reading.face[cornersOfFace[k]];
+        triangle.position[k] = corner.position;
+        triangle.normal[k] = corner.normal;
+        triangle.uv[k] = corner.uv;
+    }
+    reading.result.mesh.triangles.push_back(triangle);
+}
+
 void addFace(void* user, tinyobj::index_t* corners, int count)
 {
     auto& reading = *static_cast<ObjReading*>(user);
-    Mesh& mesh = reading.result.mesh;
     auto find = [&](const Elements& elements, int value) {
         uint32_t index = findElement(elements, value);
         return index != NO_HIT ? index : throw misread(reading, "an index");
     };
     if (static_cast<size_t>(count) != reading.corners) throw misread(reading, "the face");
     if (reading.material == NO_HIT) reading.material = useMaterial(reading, {"default"});
-    std::vector<uint32_t> positions, normals, uvs;
-    std::vector<vec3> points;
+    reading.face.clear();
     for (const tinyobj::index_t& corner : std::span(corners, reading.corners)) {
-        positions.push_back(find(reading.positions, corner.vertex_index));
-        bool hasNormal = corner.normal_index != 0;
-        normals.push_back(hasNormal ? find(reading.normals, corner.normal_index) : SHAPE_FLAT);
-        bool hasUv = corner.texcoord_index != 0;
-        uvs.push_back(hasUv ? find(reading.texcoords, corner.texcoord_index) : NO_UV);
-        points.push_back(mesh.positions[positions.back()]);
+        const bool hasNormal = corner.normal_index != 0, hasUv = corner.texcoord_index != 0;
+        reading.face.push_back({find(reading.positions, corner.vertex_index),
+                                hasNormal ? find(reading.normals, corner.normal_index) : SHAPE_FLAT,
+                                hasUv ? find(reading.texcoords, corner.texcoord_index) : NO_UV});
     }
+    if (reading.corners == 3) return addTriangle(reading, {0, 1, 2});
+
+    reading.facePoints.clear();
+    for (const ObjCorner& corner : reading.face)
+        reading.facePoints.push_back(reading.result.mesh.positions[corner.position]);
     bool isFan = false;
-    for (const auto& cut : triangulate(points, isFan)) {
-        MeshTriangle triangle;
-        triangle.material = reading.material;
-        for (size_t k = 0; k < 3; k++) {
-            triangle.position[k] = positions[cut[k]];
-            triangle.normal[k] = normals[cut[k]];
-            triangle.uv[k] = uvs[cut[k]];
-        }
-        mesh.triangles.push_back(triangle);
-    }
+    for (const auto& cut : triangulate(reading.facePoints, isFan)) addTriangle(reading, cut);
     if (isFan) reading.fans.add(reading.statement);
 }
 
@@ -247,14 +259,14 @@ void checkOther(ObjReading& reading, std::string& line)
         "g",   "o",     "s",        "mg",       "vp",         "usemap",   "maplib",
         "lod", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj"};
     const Statement& s = reading.statement;
-    if (s.keyword == "v")
+    if (s.keyword == "f" || s.keyword == "fo")
+        checkFace(reading, line);
+    else if (s.keyword == "v")
         reading.positions.soFar++;
     else if (s.keyword == "vn")
         reading.normals.soFar++;
     else if (s.keyword == "vt")
         reading.texcoords.soFar++;
-    else if (s.keyword == "f" || s.keyword == "fo")
-        checkFace(reading, line);
     else if (s.keyword == "usemtl")
         line.append("usemtl ").append(s.rest);
     else if (s.keyword == "mtllib")

@@ -4,12 +4,15 @@
 #include "util/error.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace sahl {
 
 namespace {
 
-constexpr std::string_view BLANKS = " \t";
+bool isBlank(char c) { return c == ' ' || c == '\t'; }
+
+constexpr std::string_view BYTE_ORDER_MARK = "\xEF\xBB\xBF";
 
 [[noreturn]] void refuseZeroByte(const std::string& text, size_t at, const std::string& file)
 {
@@ -17,15 +20,23 @@ constexpr std::string_view BLANKS = " \t";
     throw badInput("{}:{}: a zero byte: this is binary or UTF-16, not text in UTF-8", file, line);
 }
 
+/// Whether there is anything that normaliseLines() changes.
+bool isNormal(std::string_view text)
+{
+    const auto isIn = [&](char c) { return text.find(c) != std::string_view::npos; };
+    return !text.starts_with(BYTE_ORDER_MARK) && !isIn('\r') && !isIn('\\') && !isIn('\v') && !isIn('\f');
+}
+
 }  // namespace
 
-std::string normaliseLines(const std::string& text, const std::string& file)
+std::string normaliseLines(std::string text, const std::string& file)
 {
     if (size_t zero = text.find('\0'); zero != std::string::npos) refuseZeroByte(text, zero, file);
+    if (isNormal(text)) return text;
     std::string lines;
     lines.reserve(text.size() + 1);
     size_t joined = 0;  // line ends owed since the last real one
-    size_t i = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+    size_t i = text.starts_with(BYTE_ORDER_MARK) ? BYTE_ORDER_MARK.size() : 0;
     for (; i < text.size(); i++) {
         if (text[i] != '\n' && text[i] != '\r') {
             lines += text[i] == '\v' || text[i] == '\f' ? ' ' : text[i];
@@ -87,18 +98,18 @@ size_t checkNumbers(const Statement& statement, size_t least, size_t most, bool 
 
 std::string_view takeWord(std::string_view& rest)
 {
-    size_t begin = std::min(rest.find_first_not_of(BLANKS), rest.size());
-    size_t end = std::min(rest.find_first_of(BLANKS, begin), rest.size());
-    std::string_view word = rest.substr(begin, end - begin);
-    rest.remove_prefix(end);
+    const auto begin = std::find_if_not(rest.begin(), rest.end(), isBlank);
+    const auto end = std::find_if(begin, rest.end(), isBlank);
+    const std::string_view word(begin, end);
+    rest = std::string_view(end, rest.end());
     return word;
 }
 
 std::string_view trimmed(std::string_view text)
 {
-    size_t begin = text.find_first_not_of(BLANKS);
-    if (begin == std::string_view::npos) return {};
-    return text.substr(begin, text.find_last_not_of(BLANKS) - begin + 1);
+    const auto begin = std::find_if_not(text.begin(), text.end(), isBlank);
+    const auto end = std::find_if_not(text.rbegin(), std::make_reverse_iterator(begin), isBlank).base();
+    return std::string_view(begin, end);
 }
 
 }  // namespace sahl

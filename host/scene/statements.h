@@ -18,7 +18,7 @@ struct Statement {
 /// numbers right), drops a byte order mark and makes vertical tabs and form feeds, which
 /// tinyobjloader does not take for blanks, spaces. Throws badInput naming `file` and line when the
 /// text holds a zero byte: it is binary or UTF-16.
-std::string normaliseLines(const std::string& text, const std::string& file);
+std::string normaliseLines(std::string text, const std::string& file);
 
 /// Walks over the statements of a text from normaliseLines, leaving out empty lines and comments.
 class StatementReader {
