@@ -169,12 +169,14 @@ Scene loadSceneFor(const CommonOptions& options)
     return loadScene(options.scenePath, options.scene);
 }
 
-PreparedScene prepareSceneFor(const CommonOptions& options,
-                              const std::function<void(const Scene&)>& onceRead)
+PreparedScene prepareSceneFor(const CommonOptions& options, const std::function<void(const Scene&)>& onceRead,
+                              const std::function<void()>& onceThreadsMayStart)
 {
     const SavedForm form = savedFormOf(options.scenePath);
     if (form == SavedForm::none) {
-        Scene scene = loadSceneFor(options);
+        CommonOptions read = options;
+        read.scene.onceThreadsMayStart = onceThreadsMayStart;
+        Scene scene = loadSceneFor(read);
         onceRead(scene);
         returnFreedMemory();  // of reading, before the tree needs most
         return prepareScene(std::move(scene), options.bvhBuild, threadsFor(options));
@@ -184,7 +186,10 @@ PreparedScene prepareSceneFor(const CommonOptions& options,
                          "it was saved from",
                          options.scenePath);
     }
+    const bool splitsOff = options.scene.probe.has_value();
+    if (onceThreadsMayStart && !splitsOff) onceThreadsMayStart();
     PreparedScene prepared = loadSaved(form, options.scenePath, options.scene);
+    if (onceThreadsMayStart && splitsOff) onceThreadsMayStart();
     onceRead(prepared.scene);
     return prepared;
 }
@@ -197,18 +202,28 @@ std::unique_ptr<Device> openDeviceFor(const CommonOptions& options)
     return device;
 }
 
-DeviceAhead::DeviceAhead(const CommonOptions& options, const SceneOutline& outline)
-    : options_(options), opened_(std::async(std::launch::async, [&options, outline] {
+DeviceAhead::DeviceAhead(const CommonOptions& options)
+    : options_(options), opened_(std::async(std::launch::async, [&options, outline = outline_.get_future()]() mutable {
           Opened opened;
           opened.device = openDevice(options.device, options.deviceOptions, opened.note);
-          opened.device->expectScene(outline);
+          if (const std::optional<SceneOutline> expected = outline.get()) opened.device->expectScene(*expected);
           return opened;
       }))
 {
 }
 
+DeviceAhead::~DeviceAhead() { expect({}); }
+
+void DeviceAhead::expectScene(const SceneOutline& outline) { expect(outline); }
+
+void DeviceAhead::expect(const std::optional<SceneOutline>& outline)
+{
+    if (!std::exchange(expected_, true)) outline_.set_value(outline);
+}
+
 std::unique_ptr<Device> DeviceAhead::get()
 {
+    expect({});
     Opened opened = opened_.get();
     sayDevice(options_, *opened.device, opened.note);
     return std::move(opened.device);

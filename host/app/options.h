@@ -11,6 +11,7 @@
 #include <functional>
 #include <future>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,18 +43,27 @@ Scene loadSceneFor(const CommonOptions& options);
 
 /// Loads the scene and builds its tree; a saved scene (saved/saved_scene.h) has it already, and options
 /// that would need another are refused (usage).
-///   onceRead  called as soon as the scene is known and before the tree is built
-PreparedScene prepareSceneFor(const CommonOptions& options,
-                              const std::function<void(const Scene&)>& onceRead);
+///   onceRead             called as soon as the scene is known and before the tree is built
+///   onceThreadsMayStart  called before that, and before meshes are read: see SceneOptions; may be empty
+PreparedScene prepareSceneFor(const CommonOptions& options, const std::function<void(const Scene&)>& onceRead,
+                              const std::function<void()>& onceThreadsMayStart = {});
 
 /// Opens options.device and tells the user what was chosen, unless --quiet.
 std::unique_ptr<Device> openDeviceFor(const CommonOptions& options);
 
-/// As openDeviceFor(), while the caller goes on: in a thread of its own the device is opened and makes the kernels
-/// for a scene like that. What the user is told, and what fails, waits for get().
+/// As openDeviceFor(), while the caller goes on: in a thread of its own the device is opened, and makes the kernels for
+/// the expected scene once that is known. What the user is told, and what fails, waits for get().
 class DeviceAhead {
 public:
-    DeviceAhead(const CommonOptions& options, const SceneOutline& outline);
+    /// Begins to open options.device; `options` must live as long as this.
+    explicit DeviceAhead(const CommonOptions& options);
+    ~DeviceAhead();  ///< waits until the device is open, and closes it
+    DeviceAhead(const DeviceAhead&) = delete;
+    DeviceAhead& operator=(const DeviceAhead&) = delete;
+
+    /// To be called once at most, and not after get().
+    void expectScene(const SceneOutline& outline);
+    /// To be called once.
     std::unique_ptr<Device> get();
 
 private:
@@ -61,7 +71,11 @@ private:
         std::unique_ptr<Device> device;
         std::string note;
     };
+    void expect(const std::optional<SceneOutline>& outline);
+
     const CommonOptions& options_;
+    bool expected_ = false;
+    std::promise<std::optional<SceneOutline>> outline_;
     std::future<Opened> opened_;
 };
 

@@ -324,7 +324,11 @@ int runRender(RenderOptions& options)
     StageSeconds seconds;
     RenderSettings filmSettings;
     std::optional<DeviceAhead> opening;
-    PreparedScene prepared = prepareSceneFor(options.common, [&](const Scene& scene) {
+    const auto openAhead = [&] {
+        // A part that is there already needs no device
+        if (!options.range.skipExisting) opening.emplace(options.common);
+    };
+    const auto onceRead = [&](const Scene& scene) {
         refuseToReplaceInputs(outputs);
         options.samples = rangeOf(options.range, scene.settings);
         filmSettings = applyCrop(options, scene.settings);
@@ -332,14 +336,14 @@ int runRender(RenderOptions& options)
         const bool keepsWhole = options.output.film && replicateSizeOf(scene.settings.samplerKind) > BLOCK_SIZE;
         requireFilmMemory(filmSettings, 1 + (options.output.film ? 1 : 0) + (keepsWhole ? 1 : 0));
         seconds.load = watch.lap();
-        // A saved scene has its tree, and a part that is there already needs no device
-        const bool isSaved = scene.primitives.empty();
-        if (!isSaved && !options.range.skipExisting) {
+        const bool isSaved = scene.primitives.empty();  // with its tree, so that there is nothing to expect
+        if (opening && !isSaved) {
             SceneOutline outline = outlineOf(scene);
             outline.samples = uint64_t{filmSettings.width} * filmSettings.height * (options.samples.end - options.samples.first);
-            opening.emplace(options.common, outline);
+            opening->expectScene(outline);
         }
-    });
+    };
+    PreparedScene prepared = prepareSceneFor(options.common, onceRead, openAhead);
     seconds.build = watch.lap();
     options.hashes = hashesOf(prepared.deviceScene());
     dropUnwalkedTree(prepared, options.common.deviceOptions.nodeWidth);

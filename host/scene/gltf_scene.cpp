@@ -120,20 +120,19 @@ uint64_t appendGltf(Scene& scene, const GltfModel& model, const GltfPlacing& pla
 
 Scene loadGltfScene(const fs::path& path, const SceneOptions& options)
 {
-    GltfModel model;
-    readGltf(model, path, {folderOf(path), options.allowedPaths});
     Scene scene;
     scene.name = path.string();
+    if (options.probe) applyProbeOption(scene, options);
+    sayThreadsMayStart(options);
+    GltfModel model;
+    readGltf(model, path, {folderOf(path), options.allowedPaths});
     applyOptions(scene.settings, options);
     if (!model.cameras.empty() && model.cameras.front().aspect)
         setPictureSize(scene.settings, options, *model.cameras.front().aspect);
     checkPictureSize(scene.settings, scene.name);
     appendGltf(scene, model, {.transform = {}, .smoothNormals = options.smoothNormals});
     scene.lights = model.lights;
-    if (options.probe)
-        applyProbeOption(scene, options);
-    else if (scene.lights.empty())
-        useStudioProbe(scene, options);
+    if (!options.probe && scene.lights.empty()) useStudioProbe(scene, options);
     if (model.cameras.size() > 1)
         warn(fmt::format("{}: {} cameras; the first is used", scene.name, model.cameras.size()));
     placeCamera(scene,

@@ -24,12 +24,13 @@ Scene loadMeshScene(const fs::path& path, const SceneOptions& options)
     scene.name = path.string();
     applyOptions(scene.settings, options);
     checkPictureSize(scene.settings, scene.name);
-    ObjFile obj = readMeshFile(path, {folderOf(path), options.allowedPaths});
-    appendObj(scene, obj, {}, options.smoothNormals, scene.name);
     if (options.probe)
         applyProbeOption(scene, options);
     else
         useStudioProbe(scene, options);
+    sayThreadsMayStart(options);
+    ObjFile obj = readMeshFile(path, {folderOf(path), options.allowedPaths});
+    appendObj(scene, obj, {}, options.smoothNormals, scene.name);
     placeCamera(scene, framePrimitives(scene));
     if (scene.settings.integrator == INTEGRATOR_PHONG) addHeadLight(scene);
     return scene;
@@ -81,6 +82,11 @@ void applyProbeOption(Scene& scene, const SceneOptions& options)
     setProbe(scene, readImage(*options.probe),
              probeMapping(options.probeMapping.value_or("latlong")),
              probeFilter(options.probeFilter.value_or("bilinear")), options.probe->string());
+}
+
+void sayThreadsMayStart(const SceneOptions& options)
+{
+    if (options.onceThreadsMayStart) options.onceThreadsMayStart();
 }
 
 void useStudioProbe(Scene& scene, const SceneOptions& options)
@@ -159,6 +165,7 @@ Scene builtInScene(const SceneOptions& options)
         applyProbeOption(scene, options);
     else
         useStudioProbe(scene, options);
+    sayThreadsMayStart(options);
     CameraDescription camera;
     camera.eye = {0.6, 2.4, 6.5};
     camera.lookAt = {0, 0.9, 0};

@@ -6,6 +6,7 @@
 #include "shared/scene_types.h"
 #include "util/files.h"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -135,6 +136,9 @@ struct SceneOptions {
     std::optional<std::string> probeFilter;   ///< "nearest" or "bilinear"
     bool smoothNormals = false;               ///< make normals for meshes that have none
     std::vector<fs::path> allowedPaths;       ///< folders outside the scene's own to read from
+    /// Called once nothing is left to be decoded in a process that is split off (image/isolated.h), which is safe only
+    /// while there is one thread: before meshes are read. May be empty.
+    std::function<void()> onceThreadsMayStart;
 };
 
 /// Reads a scene: .json (scenes/schema.json), .gltf or .glb, or a mesh, .obj or .ply (framing camera,

@@ -55,6 +55,14 @@ Scene loadJsonScene(const fs::path& path, const SceneOptions& options)
     if (const JsonNode* integrator = file.find("integrator")) readIntegrator(reading, *integrator);
     applyOptions(scene.settings, options);
     checkPictureSize(scene.settings, scene.name);
+    const JsonNode* environment = file.find("environment");
+    if (options.probe)
+        applyProbeOption(scene, options);
+    else if (environment)
+        readEnvironment(reading, *environment);
+    if (const JsonNode* background = file.find("background")) readBackground(reading, *background);
+    sayThreadsMayStart(options);
+
     if (const JsonNode* materials = file.find("materials")) readMaterials(reading, *materials);
     if (const JsonNode* groups = file.find("groups")) readGroups(reading, *groups);
     if (const JsonNode* shapes = file.find("shapes")) {
@@ -65,13 +73,6 @@ Scene loadJsonScene(const fs::path& path, const SceneOptions& options)
         for (const JsonNode& light : readArray(document, *lights, "\"lights\""))
             readLight(reading, light);
     }
-    const JsonNode* environment = file.find("environment");
-    if (options.probe)
-        applyProbeOption(scene, options);
-    else if (environment)
-        readEnvironment(reading, *environment);
-    if (const JsonNode* background = file.find("background")) readBackground(reading, *background);
-
     if (const JsonNode* camera = file.find("camera"))
         readCamera(reading, *camera);
     else

@@ -94,6 +94,9 @@ void applyProbeOption(Scene& scene, const SceneOptions& options);
 /// Lights a scene that has no light of its own.
 void useStudioProbe(Scene& scene, const SceneOptions& options);
 
+/// Calls options.onceThreadsMayStart, if there is one.
+void sayThreadsMayStart(const SceneOptions& options);
+
 /// Throws badInput unless width * height is a bearable number of pixels.
 void checkPictureSize(const RenderSettings& settings, const std::string& name);
 

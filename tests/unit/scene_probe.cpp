@@ -190,5 +190,33 @@ TEST(Churches, haveWindowsManyTimesBrighterThanTheirWalls)
     }
 }
 
+TEST(ProbeTest, areReadBeforeMeshes_andThreadsMayStartInBetween)
+{
+    const std::string mesh = R"("shapes": [{ "type": "mesh", "file": "missing.obj" }])";
+    SceneFolder files;
+    files.write("both.json", R"({ "environment": { "file": "missing.exr" }, )" + mesh + "}");
+    files.write("background.json", R"({ "background": { "file": "missing.exr" }, )" + mesh + "}");
+    files.write("mesh.json", R"({ "environment": { "radiance": [1, 1, 1] }, )" + mesh + "}");
+    files.write("mesh.obj", "no mesh");
+    files.write("mesh.gltf", "no JSON");
+    struct Case {
+        const char* file;
+        bool namesProbe;
+        const char* failsAt;
+        int starts;
+    };
+    for (const Case& c : {Case{"both.json", false, "missing.exr", 0}, {"background.json", false, "missing.exr", 0},
+                          {"mesh.json", false, "missing.obj", 1}, {"mesh.json", true, "probe.exr", 0},
+                          {"mesh.obj", false, "mesh.obj", 1}, {"mesh.obj", true, "probe.exr", 0},
+                          {"mesh.gltf", false, "mesh.gltf", 1}, {"mesh.gltf", true, "probe.exr", 0}}) {
+        int starts = 0;
+        SceneOptions options;
+        options.onceThreadsMayStart = [&] { starts++; };
+        if (c.namesProbe) options.probe = files.folder.path / "probe.exr";
+        EXPECT_CONTAINS(errorOfFile(files, c.file, options), c.failsAt) << c.file;
+        EXPECT_EQ(starts, c.starts) << c.file << ", " << c.namesProbe;
+    }
+}
+
 }  // namespace
 }  // namespace sahl
