@@ -10,7 +10,7 @@
 namespace sahl {
 
 /// The module with its specialisation constants of ids 0, 1, 2, ... fixed at values[0], values[1],
-/// ...; code that they rule out is left out. Of a small module functions are inlined and variables kept as values. No
+/// ...; code that they rule out is left out. Functions are inlined and variables kept as values. No
 /// float arithmetic is folded or rearranged. Throws deviceLost when the module cannot be read.
 std::vector<uint32_t> foldedConstants(std::span<const uint32_t> spirv,
                                       std::span<const uint32_t> values);

@@ -126,6 +126,19 @@ TEST_F(FoldedKernels, leaveOutWhatASceneHasNoUseFor)
             << "feature " << feature;
 }
 
+TEST_F(FoldedKernels, areInlinedButWhereFunctionsReturnEarly_andAskNobodyToRefrain)
+{
+    for (const char* kernel : KERNELS) {
+        const Words module = folded(kernel, FEATURES_ALL);
+        const std::span<const uint32_t> whole = kernelSpirv(kernel);
+        const auto isFunction = [](spv::Op op, const uint32_t*) { return op == spv::OpFunction; };
+        EXPECT_LT(count(module, isFunction), count({whole.begin(), whole.end()}, isFunction) / 3) << kernel;
+        EXPECT_EQ(count(module, [](spv::Op op, const uint32_t* words) {
+                      return op == spv::OpFunction && words[3] != spv::FunctionControlMaskNone;
+                  }), 0u) << kernel;
+    }
+}
+
 TEST_F(FoldedKernels, areMadeOnce)
 {
     EXPECT_EQ(foldedKernel("path_texel", constantsFor(0)).data(),
