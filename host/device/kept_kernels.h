@@ -9,7 +9,7 @@
 
 namespace sahl {
 
-/// Most kernels that are kept, of 50 to 300 KB each; the oldest go first.
+/// Most kernels that are kept, of 50 to 420 KB each; the oldest go first.
 constexpr size_t MAX_KEPT_KERNELS = 64;
 
 /// What tells folded kernels apart: the SPIR-V before, the constants, and how they
