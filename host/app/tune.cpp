@@ -2,6 +2,7 @@
 
 #include "app/options.h"
 #include "device/variants.h"
+#include "render/trials.h"
 #include "util/error.h"
 #include "util/messages.h"
 
@@ -12,74 +13,50 @@ namespace sahl {
 namespace {
 
 constexpr uint32_t SIZE = 128;  // of the picture [pixels]
-constexpr int ROUNDS = 5;       // after one that compiles the kernels
+constexpr int ROUNDS = 5;
+constexpr TileRequest TILE = {0, 0, SIZE, SIZE, 0, BLOCK_SIZE};
 
-struct Candidate {
-    Variant variant;
-    std::unique_ptr<Device> device;
-    std::vector<double> seconds;  // of a block of samples for each pixel, by rounds
-};
-
-double medianOf(std::vector<double> values)
+std::vector<Trial> makeTrials(const VulkanDeviceInfo& info, const PreparedScene& scene)
 {
-    std::nth_element(values.begin(), values.begin() + static_cast<ptrdiff_t>(values.size() / 2),
-                     values.end());
-    return values[values.size() / 2];
-}
-
-double samplesPerSecond(const Candidate& candidate)
-{
-    return double(SIZE) * SIZE * BLOCK_SIZE / medianOf(candidate.seconds);
-}
-
-std::vector<Candidate> makeCandidates(const VulkanDeviceInfo& info, const PreparedScene& scene)
-{
-    std::vector<Candidate> candidates;
+    std::vector<Trial> trials;
     for (const Variant& variant : allVariants()) {
         DeviceOptions options;
         options.variant = nameOf(variant);
         std::unique_ptr<Device> device = makeVulkanDevice(info.index, options);
         device->setScene(scene.deviceScene());
         // Where texel buffers hold too little, or the device lacks what waves need, the variant is another one in truth.
-        const DeviceStatistics made = device->statistics();
-        if (made.texelBuffers == variant.texelBuffers && made.variant == options.variant)
-            candidates.push_back({variant, std::move(device), {}});
+        if (device->statistics().variant == options.variant)
+            trials.push_back({options.variant, std::move(device)});
     }
-    return candidates;
+    return trials;
 }
 
-/// One block of samples of the whole picture.
-void measure(Candidate& candidate)
+void printTrials(const std::vector<Trial>& trials, const std::string& standard, const Trial* best)
 {
-    std::vector<PixelBlock> blocks(SIZE * SIZE);
-    const double before = candidate.device->statistics().renderSeconds;
-    candidate.device->render({0, 0, SIZE, SIZE, 0, BLOCK_SIZE}, blocks);
-    candidate.seconds.push_back(candidate.device->statistics().renderSeconds - before);
+    for (const Trial& trial : trials) {
+        const double samplesPerSecond = double(SIZE) * SIZE * BLOCK_SIZE / medianSeconds(trial);
+        const std::string wrong =
+            trial.isRight() ? "" : fmt::format("  DIFFERENT from the CPU, {} of {} pixels", trial.wrongPixels, SIZE * SIZE);
+        answer("   {:<28} {:7.3f} Msamples/s{}{}{}\n", trial.name, samplesPerSecond * 1e-6,
+               trial.name == standard ? "  standard" : "", &trial == best ? "  fastest" : "", wrong);
+    }
 }
 
-void tune(const VulkanDeviceInfo& info, const PreparedScene& scene)
+struct Tuning {
+    bool allRight = true;
+    bool kept = false;
+};
+
+Tuning tune(const VulkanDeviceInfo& info, const PreparedScene& scene, std::span<const PixelBlock> expected)
 {
     answer("{}  {} (driver {})\n", info.index, info.name, info.driver);
-    std::vector<Candidate> candidates = makeCandidates(info, scene);
-    for (Candidate& candidate : candidates) {
-        measure(candidate);
-        candidate.seconds.clear();
-    }
-    // In turns, so that what else the machine does meets all alike.
-    for (int round = 0; round < ROUNDS; round++)
-        for (Candidate& candidate : candidates) measure(candidate);
+    std::vector<Trial> trials = makeTrials(info, scene);
+    runTrials(trials, TILE, expected, ROUNDS);
 
-    auto slower = [](const Candidate& a, const Candidate& b) {
-        return samplesPerSecond(a) < samplesPerSecond(b);
-    };
-    const Candidate& best = *std::max_element(candidates.begin(), candidates.end(), slower);
-    const Variant standard = standardVariant(info.driver);
-    for (const Candidate& candidate : candidates)
-        answer("   {:<28} {:7.3f} Msamples/s{}{}\n", nameOf(candidate.variant),
-               samplesPerSecond(candidate) * 1e-6,
-               candidate.variant == standard ? "  standard" : "",
-               &candidate == &best ? "  fastest" : "");
-    keepTunedVariant(info.name, info.driver, best.variant);
+    const Trial* best = fastestRight(trials);
+    printTrials(trials, nameOf(standardVariant(info.driver)), best);
+    if (best != nullptr) keepTunedVariant(info.name, info.driver, variantNamed(best->name));
+    return {std::ranges::all_of(trials, &Trial::isRight), best != nullptr};
 }
 
 PreparedScene builtInScene()
@@ -89,6 +66,15 @@ PreparedScene builtInScene()
     options.scene.width = SIZE;
     options.scene.height = SIZE;
     return prepareSceneFor(options, [](const Scene&) {});
+}
+
+std::vector<PixelBlock> referenceOf(const PreparedScene& scene)
+{
+    std::vector<PixelBlock> blocks(size_t{SIZE} * SIZE);
+    const std::unique_ptr<Device> cpu = makeCpuDevice({});
+    cpu->setScene(scene.deviceScene());
+    cpu->render(TILE, blocks);
+    return blocks;
 }
 
 }  // namespace
@@ -103,9 +89,16 @@ int tuneDevices()
                     fmt::format("nothing to tune: {}",
                                 whyNone.empty() ? "no device can be used" : whyNone));
     const PreparedScene scene = builtInScene();
-    for (const VulkanDeviceInfo& device : devices) tune(device, scene);
-    answer("kept in {}\n", tuningFile());
-    return 0;
+    const std::vector<PixelBlock> expected = referenceOf(scene);
+    Tuning all;
+    for (const VulkanDeviceInfo& device : devices) {
+        const Tuning one = tune(device, scene, expected);
+        all = {all.allRight && one.allRight, all.kept || one.kept};
+    }
+    if (all.kept) answer("kept in {}\n", tuningFile());
+    if (all.allRight) return 0;
+    say("sahl: variants that differ from the CPU were not kept; `sahl verify --all-variants` says where they differ\n");
+    return static_cast<int>(ErrorKind::checkFailed);
 }
 
 }  // namespace sahl

@@ -83,7 +83,7 @@ struct DeviceStatistics {
     uint32_t pipelines = 0;     ///< that were made of kernels
     bool walksWatched = false;  ///< on the device: walks count their steps, and say where a loop was cut
     uint64_t tilesBegunAhead = 0;  ///< that were asked for and under way already (see expectTile())
-    std::string variant;        ///< way in which kernels run (variants.h); empty on the CPU
+    std::string variant;        ///< way in which kernels run (variants.h), what a scene does not allow left out; empty on the CPU
 };
 
 /// What a pass of adaptive sampling did.

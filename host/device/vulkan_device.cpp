@@ -229,13 +229,16 @@ void VulkanDevice::preparePipeline(bool texel, uint32_t features, const WalkForm
     }
 }
 
-/// What takes paths to their ends, in the way of the variant; whole where the device binds too few buffers for waves.
+/// What takes paths to their ends, in the way of the variant or the nearest that device and scene allow: whole paths
+/// where the device binds too few buffers for waves.
 void VulkanDevice::makePathPipelines()
 {
     pipeline_ = {};
     bound_ = false;
     waves_.reset();
     Variant made = variant_;
+    made.texelBuffers = pipelineTexel_;
+    made.stackInRegisters = pipelineForm_.stackInRegisters;
     if (!haveStorageBuffers(WAVE_STORAGE_BUFFERS)) made.paths = Variant::Paths::whole;
     if (made.paths == Variant::Paths::waves && !context_->physical.subgroupBallots)
         made.paths = Variant::Paths::sharedWaves;

@@ -13,8 +13,6 @@ namespace sahl {
 
 namespace {
 
-bool sameBits(const PixelBlock& a, const PixelBlock& b) { return std::memcmp(&a, &b, sizeof(a)) == 0; }
-
 /// Renders a tile and returns the seconds it took.
 double timedRender(Device& device, const TileRequest& tile, std::vector<PixelBlock>& blocks)
 {
@@ -48,6 +46,8 @@ bool comesBefore(const TileRequest& a, const TileRequest& b)
 }
 
 }  // namespace
+
+bool sameBits(const PixelBlock& a, const PixelBlock& b) { return std::memcmp(&a, &b, sizeof(a)) == 0; }
 
 Divergence locateDivergence(Device& device, Device& reference, const DeviceScene& scene, TileRequest pixel)
 {

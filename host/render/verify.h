@@ -34,6 +34,9 @@ struct VerifyResult {
     bool equal() const { return differingPixels == 0 && deviceFilm == referenceFilm; }
 };
 
+/// All that is compared of a pixel: light, digest, counters.
+bool sameBits(const PixelBlock& a, const PixelBlock& b);
+
 /// Renders the scene on both devices (their scenes are set here) and compares every block.
 /// `report` is called with the fraction done.
 VerifyResult verifyDevice(Device& device, Device& reference, const DeviceScene& scene, uint32_t spp,
