@@ -75,9 +75,9 @@ void printVerdict(const Scene& scene, const Device& device, const Device& refere
     printBlock("reference", result.first->reference);
 }
 
-int runVerify(VerifyOptions& options)
+/// What of the options cannot go together.
+void checkOptions(const VerifyOptions& options)
 {
-    setQuiet(options.common.quiet);
     if (options.allDevices && options.common.device != "auto") {
         throw usageError("--device names one device, --all-devices takes every one; leave one out");
     }
@@ -85,6 +85,24 @@ int runVerify(VerifyOptions& options)
         throw usageError("--difference is for one device; name it with --device instead of "
                          "--all-devices");
     }
+    if (!options.allVariants) return;
+    if (options.allDevices) {
+        throw usageError("--all-variants is for one device; name it with --device instead of "
+                         "--all-devices");
+    }
+    if (!options.common.deviceOptions.variant.empty()) {
+        throw usageError("--variant names one variant, --all-variants takes every one; leave one out");
+    }
+    if (!options.differencePath.empty()) {
+        throw usageError("--difference is for one variant; name it with --variant instead of "
+                         "--all-variants");
+    }
+}
+
+int runVerify(VerifyOptions& options)
+{
+    setQuiet(options.common.quiet);
+    checkOptions(options);
     std::vector<fs::path> outputs;
     if (!options.differencePath.empty()) outputs.push_back(options.differencePath);
     checkPicturePaths(outputs);
@@ -93,6 +111,7 @@ int runVerify(VerifyOptions& options)
         requireFilmMemory(scene.settings, 2);
     });
     if (options.allDevices) return verifyAllDevices(options, prepared);
+    if (options.allVariants) return verifyAllVariants(options, prepared);
     std::unique_ptr<Device> device = openDeviceFor(options.common);
     std::unique_ptr<Device> reference = makeCpuDevice(options.common.deviceOptions);
 
@@ -128,6 +147,15 @@ std::string placeText(const Divergence& divergence)
 {
     return fmt::format("({}, {}), sample {}, bounce {}: {}", divergence.x, divergence.y,
                        divergence.sample, divergence.bounce, divergence.stage);
+}
+
+std::string verdictText(const VerifyResult& result)
+{
+    if (result.equal()) return "EQUAL, 0 differing bits";
+    std::string text = fmt::format("DIFFERENT, {} pixels, {} bits", result.differingPixels,
+                                   result.differingFilmBits);
+    if (result.first) text += "; first at pixel " + placeText(*result.first);
+    return text;
 }
 
 nlohmann::ordered_json resultJson(const VerifyResult& result)
@@ -195,6 +223,9 @@ Command addVerifyCommand(CLI::App& app)
     addFlag(*command, "--all-devices", options->allDevices,
             "every Vulkan device of this machine, as a table")
         ->group("Device");
+    addFlag(*command, "--all-variants", options->allVariants,
+            "every way in which the device can run the kernels, as a\ntable (docs/variants.md)")
+        ->group("Device");
     addSceneOptions(*command, options->common);
     addDeviceOptions(*command, options->common);
     addMessageOptions(*command, options->common);
@@ -202,7 +233,8 @@ Command addVerifyCommand(CLI::App& app)
                     "that are.\n\nExamples:\n"
                     "  sahl verify\n"
                     "  sahl verify scene.json --device 0 --spp 8 --difference where.exr\n"
-                    "  sahl verify scene.json --all-devices");
+                    "  sahl verify scene.json --all-devices\n"
+                    "  sahl verify scene.json --device 0 --all-variants");
     return [options] { return runVerify(*options); };
 }
 

@@ -85,15 +85,6 @@ std::string noiseText(const Statistics& statistics)
                        100 * statistics.detectableBias);
 }
 
-std::string verdictText(const VerifyResult& result)
-{
-    if (result.equal()) return "EQUAL, 0 differing bits";
-    std::string text = fmt::format("DIFFERENT, {} pixels, {} bits", result.differingPixels,
-                                   result.differingFilmBits);
-    if (result.first) text += "; first at pixel " + placeText(*result.first);
-    return text;
-}
-
 void compareWith(Reference& reference, const PreparedScene& prepared, const VerifyOptions& options,
                  Row& row)
 {

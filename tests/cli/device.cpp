@@ -200,6 +200,41 @@ TEST_F(DeviceProgram, verifyOfAllDevicesWithOptionsForOne_isAnErrorOfUsage)
     expectRefused(sahl({"verify", "--all-devices", "--difference", "d.exr"}), 2, "--difference");
 }
 
+TEST_F(DeviceProgram, verifyOfAllVariants_isATableOfThem)
+{
+    RunResult result = sahl({"verify", "ball.json", "--device", "0", "--all-variants", "--buffers", "storage"}, here());
+    EXPECT_EQ(result.exitCode, 0) << result.out << result.err;
+    EXPECT_TRUE(result.out.starts_with("scene  ball.json, 16x12, 4 spp, 4 bounces\n" + name(first()) + "  "))
+        << result.out;
+    EXPECT_HAS(result.out, "\n  texel-wave-registers             EQUAL, 0 differing bits, as storage-wave-registers\n");
+    EXPECT_HAS(result.out, "\n  storage-8x8-by8-steps            EQUAL, 0 differing bits\n");
+}
+
+TEST_F(DeviceProgram, verifyOfAllVariantsAsJson_hasAnEntryForEachThatDevicesLists)
+{
+    RunResult result = sahl({"verify", "ball.json", "--device", "0", "--all-variants", "--json"}, here());
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    const Json json = Json::parse(result.out);
+    EXPECT_EQ(json["equal"], true);
+    EXPECT_EQ(json["device"]["name"], name(first()));
+    EXPECT_EQ(json["reference"]["name"], name(cpu()));
+    std::string variants;
+    for (const Json& row : json["variants"]) {
+        EXPECT_EQ(row["equal"], true) << row;
+        EXPECT_EQ(row["counters"]["cameraRays"], 16 * 12 * 4) << row;
+        variants += row["variant"].get<std::string>() + "\n";
+    }
+    EXPECT_EQ(variants, sahl({"devices", "--variants"}, here()).out);
+}
+
+TEST_F(DeviceProgram, verifyOfAllVariantsWithOptionsForOne_isAnErrorOfUsage)
+{
+    expectRefused(sahl({"verify", "--all-variants", "--all-devices"}), 2, "--all-variants is for one device");
+    expectRefused(sahl({"verify", "--all-variants", "--variant", "texel-wave"}), 2, "--variant names one");
+    expectRefused(sahl({"verify", "--all-variants", "--difference", "d.exr"}), 2, "--difference is for one variant");
+    expectRefused(sahl({"verify", "ball.json", "--all-variants", "--device", "cpu", "-q"}, here()), 2, "Vulkan devices");
+}
+
 /// A program whose reference has one bit of its text flipped: so it must find a difference.
 class FlippedProgram : public DeviceProgram {
 protected:
@@ -276,6 +311,28 @@ TEST_F(FlippedProgram, verifyOfAllDevices_namesTheFirstDifferenceAndWhatItMeansF
         std::regex(
             "\n +no difference from an independent render beyond noise; a bias of [0-9.]+ % ")))
         << result.out;
+}
+
+TEST_F(FlippedProgram, verifyOfAllVariants_namesTheFirstDifferenceOfEach)
+{
+    RunResult result = verify({"--all-variants"});
+    EXPECT_EQ(result.exitCode, 1) << result.out << result.err;
+    EXPECT_HAS(result.out, "\n  texel-8x8-by1                    DIFFERENT, ");
+    EXPECT_EQ(result.out.find("EQUAL"), std::string::npos) << result.out;
+}
+
+/// Every variant seems wrong where the reference has other random numbers.
+TEST_F(FlippedProgram, tuning_keepsNothingThatIsWrong)
+{
+    RunOptions options = withoutLeakCheck(here());
+    options.environment["XDG_CACHE_HOME"] = folder.string();
+    options.timeLimit = 800;  // all kernels are made and measured
+    RunResult result = runProgram(SAHL_FLIPPED_PROGRAM, {"devices", "--tune"}, options);
+    EXPECT_EQ(result.exitCode, 1) << result.out << result.err;
+    EXPECT_HAS(result.out, "DIFFERENT from the CPU, ");
+    EXPECT_EQ(result.out.find("kept in"), std::string::npos) << result.out;
+    EXPECT_HAS(result.err, "variants that differ from the CPU were not kept");
+    EXPECT_FALSE(fs::exists(folder / "sahl" / "variants.tsv"));
 }
 
 TEST_F(FlippedProgram, verifyQuietly_stillTellsTheDifference)
