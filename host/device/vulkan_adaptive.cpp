@@ -86,7 +86,7 @@ void VulkanAdaptiveTile::bind()
     buffers[BINDING_FRAME] = &host_.scene.frame;
     buffers[BINDING_PIXELS] = &buffer_;
     buffers[BINDING_SUSPENDED] = &host_.suspended;
-    bindBuffers(host_.context, host_.pipelines.path, buffers);
+    bindBuffers(host_.context, host_.pipelines.path.get(), buffers);
     const Buffer* own[] = {&buffer_};
     bindBuffers(host_.context, host_.pipelines.pass, own);
     if (!looksAtNeighbours(shared_.rule)) return;
@@ -108,8 +108,10 @@ AdaptivePass VulkanAdaptiveTile::runPass()
     bind();
     if (active_.size > 0) {
         RoundState state = runRound(BLOCK_SIZE, true);
-        host_.work.finish({name(), host_.scene.stepsPerSample, host_.stackSize}, state,
-                          [&](uint32_t dispatches) { return runRound(dispatches, false); });
+        host_.work.finish({name(), host_.scene.stepsPerSample, host_.stackSize}, state, [&](uint32_t dispatches) {
+            if (host_.pipelines.path.resume()) bind();
+            return runRound(dispatches, false);
+        });
     } else {
         foldAlone();
     }
@@ -168,7 +170,7 @@ RoundState VulkanAdaptiveTile::runRound(uint32_t dispatches, bool begin)
             }
             host_.statistics.dispatches += count;
             for (uint32_t i = 0; i < count; i++) {
-                recordStage(commands, host_.pipelines.path, active_, 0);
+                recordStage(commands, host_.pipelines.path.get(), active_, 0);
                 recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE);
             }
             if (isLast) recordEndOfRound(commands);
@@ -269,7 +271,7 @@ private:
 
 }  // namespace
 
-AdaptivePipelines makeAdaptivePipelines(Context& context, ComputePipeline path,
+AdaptivePipelines makeAdaptivePipelines(Context& context, ResumablePipeline path,
                                         const std::array<uint32_t, 2>& group, uint32_t math)
 {
     PipelineRequest request;

@@ -2,20 +2,20 @@
 #pragma once
 
 #include "device/bounded_work.h"
+#include "device/resumable.h"
 #include "device/vulkan_scene.h"
-#include "vulkan/pipeline.h"
 
 namespace sahl {
 
 struct AdaptivePipelines {
-    ComputePipeline path;    ///< kernels/adaptive_path.comp
+    ResumablePipeline path;  ///< kernels/adaptive_path.comp
     ComputePipeline pass;    ///< kernels/adaptive_pass.comp
     ComputePipeline decide;  ///< kernels/adaptive_decide.comp
     uint32_t groupSize = 0;  ///< invocations of a workgroup
 };
 
 /// `path`: the pipeline of adaptive_path for the scene and stack in force.
-AdaptivePipelines makeAdaptivePipelines(Context& context, ComputePipeline path,
+AdaptivePipelines makeAdaptivePipelines(Context& context, ResumablePipeline path,
                                         const std::array<uint32_t, 2>& group, uint32_t math);
 
 /// What all tiles share of the device that makes them; must outlive them. beginTile() calls

@@ -5,6 +5,7 @@
 #include "device/kernels.h"
 #include "device/scene_features.h"
 #include "device/variants.h"
+#include "device/resumable.h"
 #include "device/vulkan_adaptive.h"
 #include "device/vulkan_ahead.h"
 #include "device/vulkan_limits.h"
@@ -65,7 +66,8 @@ public:
 
 private:
     ComputePipeline makePipeline(const std::string& kernel, uint32_t bindingCount,
-                                 uint32_t pushConstantBytes = sizeof(Dispatch), bool waveResumes = false);
+                                 uint32_t pushConstantBytes, bool resumes);
+    ResumablePipeline makeResumable(const char* kernel, uint32_t bindingCount, uint32_t pushConstantBytes);
     bool watchesWalks(size_t primitives, uint32_t features) const;
     void preparePipeline(bool texel, uint32_t features, const WalkForm& form);
     void prepareTileBuffers(size_t pixels);
@@ -91,10 +93,10 @@ private:
     unsigned threads_;  // of the host
     DeviceStatistics statistics_;
     BoundedWork work_;
-    ComputePipeline pipeline_;
-    ComputePipeline firstHitsPipeline_;          // made when first asked for
-    ComputePipeline tracePipeline_;              // likewise
-    const ComputePipeline* active_ = nullptr;    // the one of the two that dispatches use
+    ResumablePipeline pipeline_;
+    ComputePipeline firstHitsPipeline_;        // made when first asked for
+    ResumablePipeline tracePipeline_;          // likewise
+    const ComputePipeline* active_ = nullptr;  // the one of the first two that dispatches use
     bool pipelineTexel_ = false;
     uint32_t pipelineFeatures_ = 0;
     WalkForm pipelineForm_;  // without entries: no pipeline yet
@@ -178,7 +180,7 @@ void VulkanDevice::setScene(const DeviceScene& scene)
 
 /// A pipeline of the kernel `kernel`_texel or `kernel`_storage, for the stack and buffers in force.
 ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t bindingCount,
-                                           uint32_t pushConstantBytes, bool waveResumes)
+                                           uint32_t pushConstantBytes, bool resumes)
 {
     PipelineRequest request;
     request.name = kernel + (pipelineTexel_ ? "_texel" : "_storage");
@@ -200,13 +202,20 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     constants[SPEC_ORDER] = options_.traversalOrder;
     constants[SPEC_MATH] = math_;
     constants[SPEC_FEATURES] = pipelineFeatures_;
-    constants[SPEC_WAVE_RESUMES] = waveResumes ? 1 : 0;
+    constants[SPEC_RESUMES] = resumes ? 1 : 0;
     constants[SPEC_UNIFORMS_HIDDEN] = compilesForUniforms(context_->physical.driver) ? 1 : 0;
     request.spirv = foldedKernel(request.name, constants);
     ComputePipeline pipeline = createComputePipeline(*context_, request);
     statistics_.pipelines++;
     returnFreedMemory();  // the driver's compiler leaves some 60 MB
     return pipeline;
+}
+
+ResumablePipeline VulkanDevice::makeResumable(const char* kernel, uint32_t bindingCount, uint32_t pushConstantBytes)
+{
+    return ResumablePipeline([=, this](bool resumes) {
+        return makePipeline(kernel, bindingCount, pushConstantBytes, resumes);
+    });
 }
 
 void VulkanDevice::preparePipeline(bool texel, uint32_t features, const WalkForm& form)
@@ -244,7 +253,7 @@ void VulkanDevice::makePathPipelines()
         made.paths = Variant::Paths::sharedWaves;
     statistics_.variant = nameOf(made);
     if (made.paths == Variant::Paths::whole) {
-        pipeline_ = makePipeline("path", BINDING_COUNT);
+        pipeline_ = makeResumable("path", BINDING_COUNT, sizeof(Dispatch));
         return;
     }
     auto make = [this](const char* kernel, uint32_t bindings, bool resumes) {
@@ -292,7 +301,7 @@ void VulkanDevice::prepareFirstHits(size_t pixels)
 {
     requireStorageBuffers(3, "albedo, normals and the like need");
     if (firstHitsPipeline_.name.empty())
-        firstHitsPipeline_ = makePipeline("first_hits", BINDING_FIRST_HITS + 1);
+        firstHitsPipeline_ = makePipeline("first_hits", BINDING_FIRST_HITS + 1, sizeof(Dispatch), true);
     if (firstHits_.bytes >= pixels * sizeof(FirstHits)) return;
     firstHitsBound_ = false;
     firstHits_ = {};
@@ -354,10 +363,10 @@ void VulkanDevice::renderWhole(const TileRequest& tile, std::span<PixelBlock> bl
     prepareTileBuffers(blocks.size());
     if (!bound_) {
         ahead_.drain();
-        bindAll(pipeline_);
+        bindAll(pipeline_.get());
     }
     bound_ = true;
-    active_ = &pipeline_;
+    active_ = &pipeline_.get();
     if (!mayBeginAhead(tile)) return renderBlocks(tile, blocks);
     if (expected_ && !mayBeginAhead(*expected_)) expected_.reset();
     const auto record = [this](VkCommandBuffer commands, const TileRequest& begun) {
@@ -393,8 +402,8 @@ double VulkanDevice::traceRays(std::span<const TraceRay> rays, bool anyHit, std:
         throw usageError("trace rays on '{}': {} rays, room for {} hits (scene set: {})",
                          context_->physical.name, rays.size(), hits.size(), scene_ != nullptr);
     requireStorageBuffers(3, "rays of the host need");
-    if (tracePipeline_.name.empty())
-        tracePipeline_ = makePipeline("trace_rays", BINDING_RAY_WALKS + 1, sizeof(TraceDispatch));
+    if (tracePipeline_.get().name.empty())
+        tracePipeline_ = makeResumable("trace_rays", BINDING_RAY_WALKS + 1, sizeof(TraceDispatch));
     return traceRaysOnVulkan({*context_, tracePipeline_, *scene_, work_, statistics_, pipelineForm_.stackEntries,
                               group_[0] * group_[1]},
                              rays, anyHit, hits);
@@ -406,7 +415,7 @@ std::unique_ptr<AdaptivePicture> VulkanDevice::beginAdaptive(const AdaptiveWindo
     ahead_.drain();
     if (!scene_) throw usageError("adaptive sampling on '{}' without a scene", context_->physical.name);
     if (!adaptive_) {
-        ComputePipeline path = makePipeline("adaptive_path", BINDING_COUNT, sizeof(AdaptiveDispatch));
+        ResumablePipeline path = makeResumable("adaptive_path", BINDING_COUNT, sizeof(AdaptiveDispatch));
         adaptive_ = std::make_unique<AdaptivePipelines>(
             makeAdaptivePipelines(*context_, std::move(path), group_, math_));
     }
@@ -427,8 +436,10 @@ void VulkanDevice::renderBlocks(const TileRequest& tile, std::span<PixelBlock> b
 {
     ahead_.drain();
     RoundState state = runRound(tile, tile.sampleCount, true, blocks);
-    work_.finish({nameOf(tile), scene_->stepsPerSample, pipelineForm_.stackEntries}, state,
-                 [&](uint32_t samples) { return runRound(tile, samples, false, blocks); });
+    work_.finish({nameOf(tile), scene_->stepsPerSample, pipelineForm_.stackEntries}, state, [&](uint32_t samples) {
+        if (active_ == &pipeline_.get() && pipeline_.resume()) bindAll(pipeline_.get());
+        return runRound(tile, samples, false, blocks);
+    });
 }
 
 /// Gives every pixel up to so many samples and reads the blocks back. `begin`: the tile's blocks are cleared before.

@@ -44,7 +44,7 @@ void bindAll(const TraceHost& host, const TraceBuffers& buffers)
     all[BINDING_RAYS] = &buffers.rays;
     all[BINDING_RAY_HITS] = &buffers.hits;
     all[BINDING_RAY_WALKS] = &buffers.walks;
-    bindBuffers(host.context, host.pipeline, all);
+    bindBuffers(host.context, host.pipeline.get(), all);
 }
 
 RoundState inspect(std::span<const TraceHit> hits)
@@ -71,7 +71,7 @@ double submit(const TraceHost& host, const std::string& name, TraceDispatch job,
     auto start = std::chrono::steady_clock::now();
     runCommands(host.context, name, [&](VkCommandBuffer commands) {
         for (uint32_t i = 0; i < dispatches; i++) {
-            recordDispatch(commands, host.pipeline, std::as_bytes(std::span(&job, 1)),
+            recordDispatch(commands, host.pipeline.get(), std::as_bytes(std::span(&job, 1)),
                            {groups, 1, 1});
             recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE);
             if (repeat == Repeat::goesOn) job.begin = 0;
@@ -124,7 +124,10 @@ double traceRaysOnVulkan(const TraceHost& host, std::span<const TraceRay> rays, 
             return inspect(found);
         };
         host.work.finish({name, host.scene.stepsPerSample, host.stackSize}, runRound(1, true),
-                         [&](uint32_t dispatches) { return runRound(dispatches, false); });
+                         [&](uint32_t dispatches) {
+                             if (host.pipeline.resume()) bindAll(host, buffers);
+                             return runRound(dispatches, false);
+                         });
         const bool inOneGo = host.statistics.resumptions == resumptions;
         if (host.context.physical.kind != "software" && inOneGo)
             secondsOfBatch = steadySeconds(host, name, jobOf(true));

@@ -2,15 +2,15 @@
 #pragma once
 
 #include "device/bounded_work.h"
+#include "device/resumable.h"
 #include "device/vulkan_scene.h"
-#include "vulkan/pipeline.h"
 
 namespace sahl {
 
 /// What tracing needs of the device that it runs on.
 struct TraceHost {
     Context& context;
-    ComputePipeline& pipeline;  ///< kernels/trace_rays.comp, for the scene and stack in force
+    ResumablePipeline& pipeline;  ///< kernels/trace_rays.comp, for the scene and stack in force
     const VulkanScene& scene;
     BoundedWork& work;
     DeviceStatistics& statistics;

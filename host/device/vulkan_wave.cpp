@@ -44,7 +44,6 @@ VulkanWaves::VulkanWaves(Context& context, const WaveSetup& setup, const MakeWav
                          BoundedWork& work, DeviceStatistics& statistics)
     : context_(context),
       setup_(setup),
-      make_(make),
       work_(work),
       statistics_(statistics),
       slotLimit_(chooseSlots(context.physical, setup))
@@ -60,7 +59,7 @@ VulkanWaves::VulkanWaves(Context& context, const WaveSetup& setup, const MakeWav
     plan.pushConstantBytes = sizeof(WaveDispatch);
     plan_ = createComputePipeline(context, plan);
     begin_ = make("wave_begin", BINDING_WAVE_RAYS + 1, false);
-    trace_ = make("wave_trace", BINDING_WAVE_STACKS + 1, false);
+    trace_ = ResumablePipeline([make](bool resumes) { return make("wave_trace", BINDING_WAVE_STACKS + 1, resumes); });
     shade_ = make(setup.ballots ? "wave_shade" : "wave_shade_shared", BINDING_WAVE_HITS + 1, false);
     film_ = make("wave_film", BINDING_WAVE_PIXELS + 1, false);
 }
@@ -112,7 +111,7 @@ void VulkanWaves::bindAll()
         bindBuffers(context_, pipeline, std::span(all).first(pipeline.bindings.size()));
     };
     bind(begin_);
-    bind(trace_);
+    bind(trace_.get());
     bind(shade_);
     all[BINDING_WAVE_PIXELS] = &buffers_.pixels;
     bind(film_);
@@ -154,7 +153,7 @@ void VulkanWaves::submitWaves(const WaveDispatch& job, uint32_t count, Clear cle
             recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE_AND_COUNT);
             recordIndirectDispatch(commands, begin_, constants, queues, BEGIN_GROUPS);
             recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE_AND_COUNT);
-            recordIndirectDispatch(commands, trace_, constants, queues, GROUPS);
+            recordIndirectDispatch(commands, trace_.get(), constants, queues, GROUPS);
             recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE_AND_COUNT);
             recordIndirectDispatch(commands, shade_, constants, queues, GROUPS);
             recordBarrier(commands, COMPUTE_WRITE, COMPUTE_USE);
@@ -180,15 +179,6 @@ RoundState VulkanWaves::runWaves(const WaveDispatch& job, uint32_t count, bool b
     return state;
 }
 
-/// Goes on without walks that begin again and again.
-void VulkanWaves::saveLongWalks()
-{
-    if (traceResumes_) return;
-    trace_ = make_("wave_trace", BINDING_WAVE_STACKS + 1, true);
-    traceResumes_ = true;
-    bindAll();
-}
-
 void VulkanWaves::finishWaves(const BoundedTask& task, const WaveDispatch& ofTile)
 {
     WaveDispatch job = ofTile;
@@ -200,7 +190,7 @@ void VulkanWaves::finishWaves(const BoundedTask& task, const WaveDispatch& ofTil
         const RoundState state = runWaves(job, waves, begin);
         work_.noteRound(task, done, state, uint64_t{waves} * job.stepBudget);
         if (state.samplesMissing == 0) break;
-        if (counts_.resumedWaves > 0) saveLongWalks();
+        if (counts_.resumedWaves > 0 && trace_.resume()) bindAll();
         done = state.samplesDone;
         job.stepBudget = statistics_.stepBudget;
         waves = std::clamp(counts_.waves / 4, 4u, 100u);

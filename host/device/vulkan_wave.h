@@ -4,9 +4,9 @@
 #pragma once
 
 #include "device/bounded_work.h"
+#include "device/resumable.h"
 #include "device/vulkan_scene.h"
 #include "shared/wave_types.h"
-#include "vulkan/pipeline.h"
 
 namespace sahl {
 
@@ -22,7 +22,7 @@ struct WaveSetup {
 };
 
 /// Makes the pipeline of a kernel for the scene and stack in force, with so many bindings and
-/// SPEC_WAVE_RESUMES.
+/// SPEC_RESUMES.
 using MakeWavePipeline =
     std::function<ComputePipeline(const char* kernel, uint32_t bindings, bool resumes)>;
 
@@ -52,18 +52,16 @@ private:
     void bindAll();
     WaveDispatch jobOf(const TileRequest& tile) const;
     void submitWaves(const WaveDispatch& job, uint32_t count, Clear clear, bool end);
-    void saveLongWalks();
     RoundState runWaves(const WaveDispatch& job, uint32_t count, bool begin);
     void finishWaves(const BoundedTask& task, const WaveDispatch& job);
     RoundState addToBlocks(const WaveDispatch& job, std::span<PixelBlock> blocks);
 
     Context& context_;
     WaveSetup setup_;
-    MakeWavePipeline make_;
     BoundedWork& work_;
     DeviceStatistics& statistics_;
-    ComputePipeline plan_, begin_, trace_, shade_, film_;  // kernels/wave_*.comp
-    bool traceResumes_ = false;  // trace_ saves walks that run out of steps
+    ComputePipeline plan_, begin_, shade_, film_;  // kernels/wave_*.comp
+    ResumablePipeline trace_;                      // likewise
     uint32_t slotLimit_;
     const VulkanScene* scene_ = nullptr;
     Buffers buffers_;

@@ -26,7 +26,7 @@ void main()
     tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
     PathState path;
     Traversal walk;
-    if (block.status == BLOCK_SUSPENDED) {
+    if (RESUMES && block.status == BLOCK_SUSPENDED) {
         resumePath(index, path, walk);
     } else {
         path = beginPath(job.tileX + index % job.tileWidth, job.tileY + index / job.tileWidth, sampleIndex);
@@ -35,7 +35,7 @@ void main()
     advancePath(path, walk);
 
     bool ended = path.phase == PHASE_ENDED;
-    if (!ended && faults == 0u) {
+    if (RESUMES && !ended && faults == 0u) {
         suspendPath(index, path, walk);
         // Half saved is as good as lost: the sample begins again.
         if (faults != 0u) pixels[index].block.status = BLOCK_IDLE;
@@ -45,7 +45,7 @@ void main()
         return;
     }
     block.faults = 0u;
-    block.status = ended ? BLOCK_IDLE : BLOCK_SUSPENDED;
+    block.status = ended || !RESUMES ? BLOCK_IDLE : BLOCK_SUSPENDED;
     if (ended) {
         vec3 L = addSample(path, block);
         vec3 mean = pixels[index].mean;

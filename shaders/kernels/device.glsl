@@ -17,6 +17,7 @@ layout(constant_id = SPEC_NODE_WIDTH) const uint NODE_WIDTH = 2u;
 layout(constant_id = SPEC_STACK_IN_REGISTERS) const bool STACK_IN_REGISTERS = false;
 layout(constant_id = SPEC_STEP_BY_STEP) const bool STEP_BY_STEP = false;
 layout(constant_id = SPEC_WATCHED) const bool WALKS_ARE_WATCHED = true;
+layout(constant_id = SPEC_RESUMES) const bool RESUMES = true;
 const bool BRANCHES_ARE_GUESSED = false;
 layout(constant_id = SPEC_ORDER) const uint TRAVERSAL_ORDER = ORDER_NEAR_FIRST;
 layout(constant_id = SPEC_MATH) const uint MATH = MATH_NATIVE;

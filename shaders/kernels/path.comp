@@ -3,7 +3,8 @@
 // longest path of all samples together, not of each.
 // With SAHL_FIRST_HITS a sample ends at what the camera ray meets, and goes into `firstHits`.
 //
-// A path that runs out of steps is saved and goes on in the next dispatch. An invocation in which a
+// With RESUMES a path that runs out of steps is saved and goes on in the next dispatch. Without, it begins again there, in
+// a kernel that saves it: some drivers run every branch, and few paths are ever that long. An invocation in which a
 // fault was seen (a loop cut short by the driver) changes nothing but the pixel's `faults`, so that
 // the host can simply dispatch again with fewer steps.
 #version 460
@@ -70,7 +71,7 @@ void main()
     faults = 0u;
     PathState path;
     Traversal walk;
-    if (block.status == BLOCK_SUSPENDED) {
+    if (RESUMES && block.status == BLOCK_SUSPENDED) {
         resumePath(index, path, walk);
     } else {
         path.phase = PHASE_ENDED;
@@ -87,7 +88,7 @@ void main()
     if (block.samplesDone != wanted && stepsLeft != 0u) faults |= FAULT_LOOP_CUT;
 
     bool between = path.phase == PHASE_ENDED;
-    if (!between && faults == 0u) {
+    if (RESUMES && !between && faults == 0u) {
         suspendPath(index, path, walk);
         // Half saved is as good as lost: the sample begins again.
         if (faults != 0u) pixels[index].status = BLOCK_IDLE;
@@ -97,7 +98,7 @@ void main()
         return;
     }
     block.faults = 0u;
-    block.status = between ? BLOCK_IDLE : BLOCK_SUSPENDED;
+    block.status = between || !RESUMES ? BLOCK_IDLE : BLOCK_SUSPENDED;
     pixels[index] = block;
 #ifdef SAHL_FIRST_HITS
     firstHits[index] = sums;

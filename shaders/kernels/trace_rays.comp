@@ -61,13 +61,13 @@ void main()
     tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
     TraceRay ray = rays[index];
     Traversal walk;
-    if (status == TRACE_SUSPENDED) {
+    if (RESUMES && status == TRACE_SUSPENDED) {
         walk = resumedWalk(index);
     } else {
         walk = beginTraversal(ray.tMax);
     }
     bool over = traverse(ray.org, ray.dir, job.anyHit != 0u, walk);
-    if (!over && faults == 0u) {
+    if (RESUMES && !over && faults == 0u) {
         suspendWalk(index, walk);
         status = faults == 0u ? TRACE_SUSPENDED : TRACE_IDLE;  // half saved is as good as lost
     }
@@ -77,5 +77,5 @@ void main()
         return;
     }
     hits[index] = TraceHit(walk.number, walk.tHit, walk.b1, walk.b2, tally.boxTests, tally.primitiveTests,
-                           over ? TRACE_DONE : TRACE_SUSPENDED, 0u);
+                           over ? TRACE_DONE : RESUMES ? TRACE_SUSPENDED : TRACE_IDLE, 0u);
 }

@@ -1,7 +1,7 @@
 // Walks the rays of a wave, one an invocation. Where a fault was seen (a loop cut short by the driver) the walk is as it
 // was before.
 //
-// With WAVE_RESUMES a walk that runs out of steps is saved and goes on in the next wave. Without, it begins again there,
+// With RESUMES a walk that runs out of steps is saved and goes on in the next wave. Without, it begins again there,
 // in a kernel that saves it: some drivers run every branch, and few walks are ever that long.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -23,8 +23,6 @@ layout(std430, set = 0, binding = BINDING_WAVE_STACKS) buffer WaveStacksBlock
 {
     uint stacks[];
 };
-
-layout(constant_id = SPEC_WAVE_RESUMES) const bool WAVE_RESUMES = true;
 
 void suspendWalk(uint slot, Traversal walk)
 {
@@ -67,11 +65,11 @@ void main()
     faults = 0u;
     tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
     Traversal walk = beginTraversal(tMax);
-    if (WAVE_RESUMES && (entry & ENTRY_BEGUN) != 0u) walk = resumedWalk(slot);
+    if (RESUMES && (entry & ENTRY_BEGUN) != 0u) walk = resumedWalk(slot);
     bool over = traverse(org, dir, shadow || (entry & ENTRY_ANY_HIT) != 0u, walk);
     if (!over && faults == 0u) {
         atomicAdd(counts.outOfSteps, 1u);
-        if (WAVE_RESUMES) {
+        if (RESUMES) {
             suspendWalk(slot, walk);
             // Half saved is as good as lost: the walk begins again.
             entries[at] = faults == 0u ? entry | ENTRY_BEGUN : entry & ~ENTRY_BEGUN;
