@@ -20,6 +20,7 @@
 #define OUT(T) T&
 #define INOUT(T) T&
 #define READ(T) const T&
+#define UNIFORM(field) frame.field
 
 namespace sahl::reference {
 
@@ -56,6 +57,8 @@ struct Kernel {
     std::span<const vec4> probeTexels;
     std::span<const ObjectInstance> instances;
     Frame frame = {};
+    const Probe& sceneProbe() const { return frame.probe; }
+    const Probe& backgroundProbe() const { return frame.background; }
 
     const BvhNode& loadNode(uint index) const { return nodes[index]; }
     /// By an offset of 32 bits, in which the number of children is shifted out.

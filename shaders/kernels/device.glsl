@@ -33,6 +33,23 @@ layout(std140, set = 0, binding = BINDING_FRAME) uniform FrameBlock
 };
 #define frame frames[UNIFORMS_AT]
 
+/// A number or a vector of the frame. Mesa 22's lavapipe reads a uniform in 22 instructions, for each invocation by itself and
+/// each time anew: there it is read once, at the start, and what nobody asks for is not read at all.
+Frame heldFrame = frames[UNIFORMS_AT];
+#define UNIFORM(field) (UNIFORMS_HIDDEN ? heldFrame.field : frame.field)
+
+Probe sceneProbe()
+{
+    if (UNIFORMS_HIDDEN) return heldFrame.probe;
+    return frame.probe;
+}
+
+Probe backgroundProbe()
+{
+    if (UNIFORMS_HIDDEN) return heldFrame.background;
+    return frame.background;
+}
+
 #ifdef SAHL_TEXEL_BUFFERS
 #define SCENE_BUFFER(bindingIndex, name) layout(set = 0, binding = bindingIndex) uniform utextureBuffer name
 #define FETCH(name, index) texelFetch(name, int(index))
@@ -109,7 +126,7 @@ Material loadMaterial(uint index)
 
 Light loadLight(uint index)
 {
-    uint at = frame.lightsAt + index * 4u;
+    uint at = UNIFORM(lightsAt) + index * 4u;
     uvec4 a = FETCH(tableWords, at);
     uvec4 b = FETCH(tableWords, at + 1u);
     uvec4 c = FETCH(tableWords, at + 2u);
@@ -120,13 +137,13 @@ Light loadLight(uint index)
 
 AliasEntry loadAliasEntry(uint index)
 {
-    uvec4 two = FETCH(tableWords, frame.aliasAt + (index >> 1u));
+    uvec4 two = FETCH(tableWords, UNIFORM(aliasAt) + (index >> 1u));
     return (index & 1u) == 0u ? AliasEntry(two.x, two.y) : AliasEntry(two.z, two.w);
 }
 
 Texture loadTexture(uint index)
 {
-    uint at = frame.texturesAt + index * 4u;
+    uint at = UNIFORM(texturesAt) + index * 4u;
     uvec4 a = FETCH(tableWords, at);
     uvec4 b = FETCH(tableWords, at + 1u);
     uvec4 c = FETCH(tableWords, at + 2u);
@@ -137,7 +154,7 @@ Texture loadTexture(uint index)
 
 uint loadTextureTexel(uint index)
 {
-    return FETCH(tableWords, frame.textureTexelsAt + (index >> 2u))[index & 3u];
+    return FETCH(tableWords, UNIFORM(textureTexelsAt) + (index >> 2u))[index & 3u];
 }
 
 ObjectInstance loadInstance(uint index)

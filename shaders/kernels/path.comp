@@ -67,6 +67,8 @@ void main()
     sums = noFirstHits();
     if (block.samplesDone != 0u) sums = firstHits[index];
 #endif
+    uvec2 pixel = uvec2(job.tileX, job.tileY) + at;
+    uint firstSample = job.firstSample;
     stepsLeft = job.stepBudget;
     faults = 0u;
     PathState path;
@@ -79,7 +81,7 @@ void main()
     for (;;) {  // the end stands behind the work: see traverse.glsl
         if (path.phase == PHASE_ENDED) {
             tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
-            path = beginPath(job.tileX + at.x, job.tileY + at.y, job.firstSample + block.samplesDone);
+            path = beginPath(pixel.x, pixel.y, firstSample + block.samplesDone);
             walk = beginPathTraversal(path);
         }
         stepSample(path, walk, block);

@@ -22,7 +22,7 @@ vec3 addSample(READ(PathState) path, INOUT(PixelBlock) block)
     block.sum = block.sum + L;
     block.digest += path.digest;
     block.samplesDone++;
-    if (!HAS_BLOCKS || (HAS_INDEPENDENT && frame.samplerKind == SAMPLER_INDEPENDENT)) {
+    if (!HAS_BLOCKS || (HAS_INDEPENDENT && UNIFORM(samplerKind) == SAMPLER_INDEPENDENT)) {
         block.sumY2 = block.sumY2 + y2;
     } else {
         block.sumY2 = squareOfBlock(luminance(block.sum), block.samplesDone);

@@ -5,10 +5,10 @@
 /// too dark a picture.
 void gather(vec3 L, uint scatterings, INOUT(PathState) path)
 {
-    if (frame.clampIndirect > 0.0f && scatterings > 1u) {
+    if (UNIFORM(clampIndirect) > 0.0f && scatterings > 1u) {
         float y = luminance(L);
-        if (y > frame.clampIndirect) {
-            L = L * quotient(frame.clampIndirect, y);
+        if (y > UNIFORM(clampIndirect)) {
+            L = L * quotient(UNIFORM(clampIndirect), y);
             tally.clamped++;
         }
     }

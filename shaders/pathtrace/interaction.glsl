@@ -140,7 +140,7 @@ SurfaceInteraction geometryAt(READ(Primitive) shape, READ(Traversal) hit, vec3 o
 /// Whether there is something in a triangle's corners that counts.
 bool hasCorners(READ(Primitive) shape)
 {
-    bool facets = (frame.shading & SHADING_FLAT) != 0u;
+    bool facets = (UNIFORM(shading) & SHADING_FLAT) != 0u;
     return shape.shape != SHAPE_SPHERE && shape.shape != SHAPE_FLAT && (HAS_TEXTURES || !facets);
 }
 
@@ -151,7 +151,7 @@ void interpolateCorners(READ(TriangleCorners) corners, READ(Traversal) hit, INOU
         vec2 uv = cornersUv(corners, hit.b1, hit.b2);
         isect.u = uv.x;
         isect.v = uv.y;
-        if ((frame.shading & SHADING_FLAT) != 0u) return;
+        if ((UNIFORM(shading) & SHADING_FLAT) != 0u) return;
     }
     interpolateNormal(corners, hit, isect);
 }

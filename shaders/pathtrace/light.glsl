@@ -84,9 +84,9 @@ LightSample sampleProbeLight(float chance, uint bits, uint finer, float u1, floa
     vec3 d;
     if (!sampleProbe(bits, finer, u1, u2, d)) return noLight();
     // Looked up as for any other ray, so that the density is that of the direction as it came out
-    vec3 dir = unit(fromProbe(frame.probe, d));
-    vec3 seen = toProbe(frame.probe, dir);
-    vec4 texel = lookUpProbe(frame.probe, seen);
+    vec3 dir = unit(fromProbe(sceneProbe(), d));
+    vec3 seen = toProbe(sceneProbe(), dir);
+    vec4 texel = lookUpProbe(sceneProbe(), seen);
     return withRadiance(dir, RAY_INFINITY, vec3(texel), pdfProbe(chance, seen, texel.w));
 }
 
@@ -105,7 +105,7 @@ LightSample sampleLight(READ(SurfaceInteraction) isect, READ(LightChoice) choice
     uint index = choice.light;
     float chance = choice.chance;
     if (choice.light == TAKE_TABLE) {
-        index = frame.singleCount + chooseByAlias(0u, frame.choiceCount, bits.x, finer);
+        index = UNIFORM(singleCount) + chooseByAlias(0u, UNIFORM(choiceCount), bits.x, finer);
     }
     Light light = loadLight(index);
     if (HAS_SHAPE_LIGHTS && (!HAS_FAR_LIGHTS || light.type >= LIGHT_TRIANGLE)) {
@@ -131,7 +131,7 @@ float powerHeuristic(float pdf, float other)
 /// Weight of light that light sampling found. No scattering finds lights with a pdf of 0.
 float weightOfLightSample(float pdfLight, float pdfScattering)
 {
-    if (!(pdfLight > 0.0f) || frame.lightSampling == LIGHTS_ONLY) return 1.0f;
+    if (!(pdfLight > 0.0f) || UNIFORM(lightSampling) == LIGHTS_ONLY) return 1.0f;
     return powerHeuristic(pdfLight, pdfScattering);
 }
 
@@ -139,7 +139,7 @@ float weightOfLightSample(float pdfLight, float pdfScattering)
 float weightOfScattering(float pdfScattering, float pdfLight)
 {
     if (!(pdfScattering > 0.0f) || !(pdfLight > 0.0f)) return 1.0f;
-    return frame.lightSampling == LIGHTS_ONLY ? 0.0f : powerHeuristic(pdfScattering, pdfLight);
+    return UNIFORM(lightSampling) == LIGHTS_ONLY ? 0.0f : powerHeuristic(pdfScattering, pdfLight);
 }
 
 /// Aims the path's shadow ray from a surface at a light.

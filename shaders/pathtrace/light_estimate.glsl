@@ -12,7 +12,7 @@ CONST float LEAST_SHARE = 0.03125f;
 /// Whether there is anything to choose among.
 bool anyLightIsSampled()
 {
-    return frame.choiceCount != 0u || frame.singleCount != 0u || frame.probeMean > 0.0f;
+    return UNIFORM(choiceCount) != 0u || UNIFORM(singleCount) != 0u || UNIFORM(probeMean) > 0.0f;
 }
 
 /// An estimate as a number between 1e-30 and 1e25, or 0.
@@ -46,8 +46,8 @@ float arrivingFromCluster(READ(Light) cluster, READ(SurfaceInteraction) isect, b
 float arrivingFromTable(READ(SurfaceInteraction) isect, bool through)
 {
     float sum = 0.0f;
-    uint first = frame.singleCount + frame.choiceCount;
-    for (uint i = 0u; i < frame.clusterCount; i++) {
+    uint first = UNIFORM(singleCount) + UNIFORM(choiceCount);
+    for (uint i = 0u; i < UNIFORM(clusterCount); i++) {
         sum += arrivingFromCluster(loadLight(first + i), isect, through);
     }
     return boundedEstimate(sum);
@@ -56,9 +56,9 @@ float arrivingFromTable(READ(SurfaceInteraction) isect, bool through)
 /// Irradiance by the probe, as far as its luminance is linear in the direction [W m^-2].
 float arrivingFromProbe(READ(SurfaceInteraction) isect, bool through)
 {
-    float even = 3.14159274f * frame.probeMean;
+    float even = 3.14159274f * UNIFORM(probeMean);
     if (through) return boundedEstimate(even);
-    float slope = 2.09439516f * dot3(frame.probeSlope, isect.ns);
+    float slope = 2.09439516f * dot3(UNIFORM(probeSlope), isect.ns);
     return boundedEstimate(max2(even + slope, 0.25f * even));
 }
 
@@ -87,7 +87,7 @@ float endOfShare(float sum, float perSum, float all, bool isLast)
 void chooseSingleLight(READ(SurfaceInteraction) isect, bool through, float place, float begin, float sum,
                        float least, float perSum, float all, uint count, INOUT(LightChoice) choice)
 {
-    for (uint i = 0u; i < frame.singleCount; i++) {
+    for (uint i = 0u; i < UNIFORM(singleCount); i++) {
         float arriving = arrivingFromLight(loadLight(i), isect, through);
         if (!(arriving > 0.0f)) continue;
         count--;
@@ -111,14 +111,14 @@ LightChoice chooseLight(READ(SurfaceInteraction) isect, bool through, float carr
     float all = placesOfAll(carried);
     float place = u * 16777216.0f;
     LightChoice choice;
-    bool hasProbe = HAS_PROBE_LIGHT && frame.probeMean > 0.0f;
-    bool hasTable = (HAS_FAR_LIGHTS || HAS_SHAPE_LIGHTS) && frame.choiceCount != 0u;
+    bool hasProbe = HAS_PROBE_LIGHT && UNIFORM(probeMean) > 0.0f;
+    bool hasTable = (HAS_FAR_LIGHTS || HAS_SHAPE_LIGHTS) && UNIFORM(choiceCount) != 0u;
     choice.light = hasProbe ? TAKE_PROBE : TAKE_TABLE;
     choice.chance = all * 5.96046448e-8f;
     choice.probeChance = hasProbe ? choice.chance : 0.0f;
     choice.tableChance = hasProbe ? 0.0f : choice.chance;
     if (!(place < all)) choice.light = TAKE_NOTHING;
-    if ((!HAS_FAR_LIGHTS || frame.singleCount == 0u) && hasProbe != hasTable) return choice;
+    if ((!HAS_FAR_LIGHTS || UNIFORM(singleCount) == 0u) && hasProbe != hasTable) return choice;
 
     float ofProbe = 0.0f;
     float ofTable = 0.0f;
@@ -127,7 +127,7 @@ LightChoice chooseLight(READ(SurfaceInteraction) isect, bool through, float carr
     if (HAS_PROBE_LIGHT && hasProbe) ofProbe = arrivingFromProbe(isect, through);
     if ((HAS_FAR_LIGHTS || HAS_SHAPE_LIGHTS) && hasTable) ofTable = arrivingFromTable(isect, through);
     if (HAS_FAR_LIGHTS) {
-        for (uint i = 0u; i < frame.singleCount; i++) {
+        for (uint i = 0u; i < UNIFORM(singleCount); i++) {
             float arriving = arrivingFromLight(loadLight(i), isect, through);
             ofLights += arriving;
             if (arriving > 0.0f) shining++;

@@ -93,7 +93,7 @@ vec3 onSideOf(vec3 ng, vec3 ns)
 /// axes are made perpendicular to the shading normal first (Gram and Schmidt).
 void bumpInteraction(READ(Material) material, READ(Traversal) hit, INOUT(SurfaceInteraction) isect)
 {
-    bool facets = (frame.shading & SHADING_FLAT) != 0u;
+    bool facets = (UNIFORM(shading) & SHADING_FLAT) != 0u;
     if (!HAS_TEXTURES || material.normalTexture == NO_TEXTURE || facets) return;
     UvAxes axes = uvAxesAt(hit, isect);
     vec3 n = isect.nsStored;

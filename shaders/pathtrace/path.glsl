@@ -14,11 +14,11 @@ uint digestOf(uint what, uint detail, uint depth, uint kind)
 PathState beginPath(uint x, uint y, uint sampleIndex)
 {
     PathState path;
-    path.pixel = y * frame.width + x;
+    path.pixel = y * UNIFORM(width) + x;
     path.sampleIndex = sampleIndex;
     vec4 u = random4(path.pixel, sampleIndex, DIMENSION_CAMERA);
-    float dx = frame.jitter != 0u ? u.x : 0.5f;
-    float dy = frame.jitter != 0u ? u.y : 0.5f;
+    float dx = UNIFORM(jitter) != 0u ? u.x : 0.5f;
+    float dy = UNIFORM(jitter) != 0u ? u.y : 0.5f;
     Ray ray = cameraRay(float(x) + dx, float(y) + dy, u.z, u.w);
     path.org = ray.org;
     path.dir = ray.dir;
@@ -49,8 +49,8 @@ bool inShadowPhase(READ(PathState) path)
 /// the camera are left out: what they meet is counted and compared.)
 bool seesTheEnvironmentOrNothing(READ(PathState) path)
 {
-    return HAS_PATHS && path.phase == PHASE_EXTEND && path.depth != 0u && path.depth >= frame.maxBounces &&
-           (frame.shading & SHADING_DARK) != 0u && frame.integrator == INTEGRATOR_PATH;
+    return HAS_PATHS && path.phase == PHASE_EXTEND && path.depth != 0u && path.depth >= UNIFORM(maxBounces) &&
+           (UNIFORM(shading) & SHADING_DARK) != 0u && UNIFORM(integrator) == INTEGRATOR_PATH;
 }
 
 /// The walk that the path's phase asks for.
@@ -104,8 +104,8 @@ uint sampleNextRay(READ(Material) material, READ(SurfaceInteraction) isect, uint
 /// Light that a path sees where its ray meets nothing.
 void seeEnvironment(INOUT(PathState) path)
 {
-    Probe probe = frame.probe;
-    if (path.depth == 0u) probe = frame.background;
+    Probe probe = sceneProbe();
+    if (path.depth == 0u) probe = backgroundProbe();
     vec3 d = toProbe(probe, path.dir);
     vec4 texel = lookUpProbe(probe, d);
     float weight = weightOfScattering(path.pdf, pdfProbe(path.probeChance, d, texel.w));
@@ -131,7 +131,7 @@ uint shadeSurface(READ(SurfaceInteraction) isect, READ(Material) material, READ(
     tally.bounces++;
     seeEmission(isect, material, hit, path);
     path.phase = PHASE_ENDED;
-    if (path.depth >= frame.maxBounces) return LOBE_NONE;
+    if (path.depth >= UNIFORM(maxBounces)) return LOBE_NONE;
 
     uint dimension = DIMENSION_FIRST_VERTEX + DIMENSIONS_PER_VERTEX * path.depth;
     vec4 u = random4(path.pixel, path.sampleIndex, dimension);
@@ -164,7 +164,7 @@ void shadePath(READ(Traversal) hit, INOUT(PathState) path)
         Material material = loadMaterial(isect.material);
         textureMaterial(isect.u, isect.v, material);
         bumpInteraction(material, hit, isect);
-        if (HAS_PHONG && (!HAS_PATHS || frame.integrator == INTEGRATOR_PHONG)) {
+        if (HAS_PHONG && (!HAS_PATHS || UNIFORM(integrator) == INTEGRATOR_PHONG)) {
             shadePhong(isect, material, hit, path);
         } else {
             lobe = shadeSurface(isect, material, hit, path);
@@ -183,7 +183,7 @@ void finishShadow(READ(Traversal) hit, INOUT(PathState) path)
 {
     uint blocked = hit.slot != NO_HIT ? 1u : 0u;
     path.digest += digestOf(blocked, 0u, path.depth, DIGEST_SHADOW);
-    bool phong = HAS_PHONG && frame.integrator == INTEGRATOR_PHONG;
+    bool phong = HAS_PHONG && UNIFORM(integrator) == INTEGRATOR_PHONG;
     if (blocked == 0u) gather(path.Ld, phong ? 1u : path.depth, path);
     if (phong) {
         passLight(path);

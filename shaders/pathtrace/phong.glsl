@@ -10,7 +10,7 @@
 // One light is taken at a time, because a path has one shadow ray: PHASE_LIGHT, then PHASE_SHADOW
 // where a shadow ray is needed, then the next light.
 
-bool shadingHas(uint bit) { return (frame.shading & bit) != 0u; }
+bool shadingHas(uint bit) { return (UNIFORM(shading) & bit) != 0u; }
 
 /// What one light that is seen gives to the viewer by way of a surface. Nothing from a light on the
 /// side that n does not point to.
@@ -42,7 +42,7 @@ bool shadowsItself(READ(SurfaceInteraction) isect, vec3 wi)
 void passLight(INOUT(PathState) path)
 {
     path.depth++;
-    path.phase = path.depth < frame.lightCount ? PHASE_LIGHT : PHASE_ENDED;
+    path.phase = path.depth < UNIFORM(lightCount) ? PHASE_LIGHT : PHASE_ENDED;
 }
 
 /// Adds what one light gives, or sends a shadow ray whose arrival will add it.
@@ -70,10 +70,10 @@ void shadePhong(READ(SurfaceInteraction) isect, READ(Material) material, READ(Tr
         path.hit = hit;
         path.L = path.L + material.emission;
         if (shadingHas(SHADING_AMBIENT)) {
-            path.L = path.L + flushed3(material.ambientColor * frame.ambient);
+            path.L = path.L + flushed3(material.ambientColor * UNIFORM(ambient));
         }
     }
-    if (path.depth < frame.lightCount) {
+    if (path.depth < UNIFORM(lightCount)) {
         shadeNextLight(isect, material, path);
     } else {
         path.phase = PHASE_ENDED;

@@ -54,7 +54,7 @@ float probeSolidAngle(READ(Probe) probe, vec3 d)
 float pdfProbe(float chance, vec3 d, float weight)
 {
     if (!HAS_PROBE_LIGHT || !(chance > 0.0f)) return 0.0f;
-    return flushed(chance * quotient(weight, probeSolidAngle(frame.probe, d)));
+    return flushed(chance * quotient(weight, probeSolidAngle(sceneProbe(), d)));
 }
 
 /// Place of a point about the middle of texel i, in a row of texels: anywhere within the texel, or
@@ -85,16 +85,16 @@ float wrappedPlace(float x, float size)
 ///   u1, u2       uniform in [0,1)
 bool sampleProbe(uint bits, uint finer, float u1, float u2, OUT(vec3) d)
 {
-    uint width = frame.probe.width;
-    uint height = frame.probe.height;
-    uint texel = chooseByAlias(frame.choiceCount, width * height, bits, finer);
+    uint width = UNIFORM(probe.width);
+    uint height = UNIFORM(probe.height);
+    uint texel = chooseByAlias(UNIFORM(choiceCount), width * height, bits, finer);
     uint row = texel / width;
     float w = float(width);
     float h = float(height);
-    float x = placeAboutTexel(texel - row * width, frame.probe.filterMode, u1);
-    float y = placeAboutTexel(row, frame.probe.filterMode, u2);
+    float x = placeAboutTexel(texel - row * width, UNIFORM(probe.filterMode), u1);
+    float y = placeAboutTexel(row, UNIFORM(probe.filterMode), u2);
     float v = quotient(reflectedPlace(y, h), h);
-    if (HAS_ANGULAR && (!HAS_LATLONG || frame.probe.mapping == PROBE_ANGULAR)) {
+    if (HAS_ANGULAR && (!HAS_LATLONG || UNIFORM(probe.mapping) == PROBE_ANGULAR)) {
         return directionFromAngularMap(quotient(reflectedPlace(x, w), w), v, d);
     }
     d = directionFromLatLong(quotient(wrappedPlace(x, w), w), v);

@@ -36,18 +36,18 @@ float unitFloat(uint bits) { return float(bits >> 8u) * 5.96046448e-08f; }
 /// 32 random bits for each of a row of four dimensions, by the scene's sampler.
 uvec4 randomBits4(uint pixel, uint sampleIndex, uint dimension)
 {
-    if (!HAS_BLOCKS || (HAS_INDEPENDENT && frame.samplerKind == SAMPLER_INDEPENDENT))
-        return hash4(pixel, sampleIndex, dimension, frame.seed);
+    if (!HAS_BLOCKS || (HAS_INDEPENDENT && UNIFORM(samplerKind) == SAMPLER_INDEPENDENT))
+        return hash4(pixel, sampleIndex, dimension, UNIFORM(seed));
     // There are fewer than 2^24 samples, so the highest bits tell the kinds of numbers apart: pictures of different samplers
     // have no noise in common.
-    if (HAS_SOBOL64 && (!HAS_SOBOL || frame.samplerKind == SAMPLER_SOBOL64)) {
-        uvec4 ofSample = hash4(pixel, sampleIndex | 0x60000000u, dimension, frame.seed);
-        uvec4 ofBlock = hash4(pixel, (sampleIndex >> 6u) | 0xc0000000u, dimension, frame.seed);
+    if (HAS_SOBOL64 && (!HAS_SOBOL || UNIFORM(samplerKind) == SAMPLER_SOBOL64)) {
+        uvec4 ofSample = hash4(pixel, sampleIndex | 0x60000000u, dimension, UNIFORM(seed));
+        uvec4 ofBlock = hash4(pixel, (sampleIndex >> 6u) | 0xc0000000u, dimension, UNIFORM(seed));
         return net64Bits4(ofBlock, ofSample, sampleIndex & 63u);
     }
     // BLOCK_SIZE is 8.
-    uvec4 ofSample = hash4(pixel, sampleIndex | 0x40000000u, dimension, frame.seed);
-    uvec4 ofBlock = hash4(pixel, (sampleIndex >> 3u) | 0x80000000u, dimension, frame.seed);
+    uvec4 ofSample = hash4(pixel, sampleIndex | 0x40000000u, dimension, UNIFORM(seed));
+    uvec4 ofBlock = hash4(pixel, (sampleIndex >> 3u) | 0x80000000u, dimension, UNIFORM(seed));
     return netBits4(ofBlock, ofSample, sampleIndex & 7u);
 }
 

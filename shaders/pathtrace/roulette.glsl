@@ -15,7 +15,7 @@ float survivalOf(vec3 beta, float etaScale)
 ///   dimension  of the vertex
 bool survivesRoulette(uint dimension, INOUT(PathState) path)
 {
-    if (path.depth < frame.rouletteDepth) return true;
+    if (path.depth < UNIFORM(rouletteDepth)) return true;
     float survival = survivalOf(path.beta, path.etaScale);
     if (!(survival < 1.0f)) return true;
     float u = random4(path.pixel, path.sampleIndex, dimension + DIMENSION_LIGHT).w;

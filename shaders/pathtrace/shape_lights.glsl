@@ -110,7 +110,7 @@ float lightPerArea(READ(Material) material)
     if (HAS_TEXTURES && material.emissionTexture != NO_TEXTURE) {
         emission = emission * loadTexture(material.emissionTexture - 1u).mean;
     }
-    return flushed(luminance(emission) * frame.lightPerPower);
+    return flushed(luminance(emission) * UNIFORM(lightPerPower));
 }
 
 /// Density with which light sampling takes the direction of a ray that met a shape [1/sr].

@@ -17,7 +17,7 @@
 Traversal beginTraversal(float tMax)
 {
     Traversal walk;
-    walk.ref = frame.rootRef;
+    walk.ref = UNIFORM(rootRef);
     walk.stackSize = 0u;
     walk.group = 0u;
     walk.slot = NO_HIT;
@@ -72,7 +72,7 @@ WalkRay makeWalkRay(vec3 org, vec3 dir, float entry, uint firstNumber)
     ray.firstNumber = firstNumber;
     ray.material = NO_MATERIAL;
     ray.boxes = makeBoxRay(org, dir);
-    if (NODE_WIDTH == 4u) ray.onGrid = makeGridRay(ray.boxes, frame.gridAt, frame.gridScale);
+    if (NODE_WIDTH == 4u) ray.onGrid = makeGridRay(ray.boxes, UNIFORM(gridAt), UNIFORM(gridScale));
     ray.sheared = shearRay(org, dir);
     return ray;
 }
