@@ -111,6 +111,19 @@ TEST_F(SameBits, whereTilesAreBegunAhead)
     }
 }
 
+TEST_F(SameBits, wherePathsRunOutOfSteps_byAnotherKernelThatSavesThem)
+{
+    for (uint32_t steps : {0u, 29u}) {
+        DeviceOptions options;
+        options.variant = "storage-8x8-by8";
+        options.stepBudget = steps;
+        auto device = openFirstDevice(options);
+        EXPECT_TRUE(renderFilm(*device, scene(), 0, SPP) == reference()) << steps;
+        EXPECT_EQ(device->statistics().pipelines, steps == 0 ? 1u : 2u);
+        EXPECT_EQ(device->statistics().resumptions > 0, steps != 0);
+    }
+}
+
 TEST_F(SameBits, whereAnotherTileFollowsThanWasBegunAhead)
 {
     DeviceOptions options;
