@@ -33,9 +33,16 @@ layout(std140, set = 0, binding = BINDING_FRAME) uniform FrameBlock
 };
 #define frame frames[UNIFORMS_AT]
 
+Frame frameToHold()
+{
+    Frame read;
+    if (UNIFORMS_HIDDEN) read = frames[UNIFORMS_AT];
+    return read;
+}
+Frame heldFrame = frameToHold();
+
 /// A number or a vector of the frame. Mesa 22's lavapipe reads a uniform in 22 instructions, for each invocation by itself and
 /// each time anew: there it is read once, at the start, and what nobody asks for is not read at all.
-Frame heldFrame = frames[UNIFORMS_AT];
 #define UNIFORM(field) (UNIFORMS_HIDDEN ? heldFrame.field : frame.field)
 
 Probe sceneProbe()
