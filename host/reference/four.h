@@ -78,6 +78,12 @@ inline Four greater4(Four a, Four b)
     return a < b ? b : a;
 }
 
+/// min(v, end) for an end that is not negative.
+inline Four upTo4(Four v, float end)
+{
+    return lesser4(v, fours(end));
+}
+
 /// All bits where a <= b, else 0.
 inline FourUints allBitsWhere(Four a, Four b)
 {

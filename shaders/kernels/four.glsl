@@ -17,6 +17,9 @@ vec4 floatsOf(uvec4 v) { return vec4(ivec4(v)); }
 /// max(v, 0), of either sign where it is 0; by way of int, whose maximum is one instruction also against a constant.
 vec4 positive4(vec4 v) { return intBitsToFloat(max(floatBitsToInt(v), ivec4(0))); }
 
+/// min(v, end) for an end that is not negative; by way of int for the same reason.
+vec4 upTo4(vec4 v, float end) { return intBitsToFloat(min(floatBitsToInt(v), ivec4(floatBitsToInt(end)))); }
+
 uvec4 bitsOf(vec4 v) { return floatBitsToUint(v); }
 
 vec4 lesser4(vec4 a, vec4 b) { return mix(a, b, lessThan(b, a)); }

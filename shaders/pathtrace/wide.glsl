@@ -51,8 +51,9 @@ FourUints intersectFour(BoxRay ray, FourUints x, FourUints y, FourUints z, FourU
     Four by = (floatsOf(y >> 16u) - alongY(ray.orgHi)) * alongY(ray.inverse);
     Four az = (floatsOf(z & 0xffffu) - alongZ(ray.orgLo)) * alongZ(ray.inverse);
     Four bz = (floatsOf(z >> 16u) - alongZ(ray.orgHi)) * alongZ(ray.inverse);
-    Four entry = greater4(greater4(lesser4(ax, bx), lesser4(ay, by)), positive4(lesser4(az, bz)));
-    Four leave = lesser4(lesser4(greater4(ax, bx), greater4(ay, by)), lesser4(greater4(az, bz), fours(tMax)));
+    // Those by way of int come last: what an int gave is none of the numbers of which a compiler sees the lesser in one instruction
+    Four entry = positive4(greater4(greater4(lesser4(ax, bx), lesser4(ay, by)), lesser4(az, bz)));
+    Four leave = upTo4(lesser4(lesser4(greater4(ax, bx), greater4(ay, by)), greater4(az, bz)), tMax);
     FourUints number = fourUints(uvec4(0u, 1u, 2u, 3u));
     if (TRAVERSAL_ORDER == ORDER_RIGHT_FIRST) number = fourUints(uvec4(3u, 2u, 1u, 0u));
     // Without the sign: zero has either
