@@ -30,8 +30,13 @@ vec3 yzx(vec3 v) { return v.yzx; }
 
 vec3 zxy(vec3 v) { return v.zxy; }
 
-/// Whether one number is below zero and another above.
-bool onBothSidesOfZero(vec3 v) { return any(lessThan(v, vec3(0.0f))) && any(greaterThan(v, vec3(0.0f))); }
+/// Whether one number is below zero and another above; either, if one is not a number.
+bool onBothSidesOfZero(vec3 v)
+{
+    vec2 lesser = mix(v.xy, v.yz, lessThan(v.yz, v.xy));
+    vec2 greater = mix(v.xy, v.yz, lessThan(v.xy, v.yz));
+    return (lesser.y < lesser.x ? lesser.y : lesser.x) < 0.0f && (greater.x < greater.y ? greater.y : greater.x) > 0.0f;
+}
 
 float pickAxis(vec3 v, uint axis) { return axis == 0u ? v.x : (axis == 1u ? v.y : v.z); }
 

@@ -45,7 +45,7 @@ void primitiveBox(READ(Primitive) shape, OUT(Axes) lo, OUT(Axes) hi)
         lo = lesserAxes(lesserAxes(p0, p1), p2);
         hi = greaterAxes(greaterAxes(p0, p1), p2);
     }
-    Axes widening = equalAxes(largestAlong(greaterAxes(sizeAlongAxes(lo), sizeAlongAxes(hi))) * WIDENING);
+    Axes widening = equalAxes(largestAlong(greaterAxes(-lo, hi)) * WIDENING);
     lo = greaterAxes(lo - widening, equalAxes(-LARGEST_FLOAT));
     hi = lesserAxes(hi + widening, equalAxes(LARGEST_FLOAT));
 }

@@ -95,10 +95,8 @@ bool intersectTriangle(vec3 org, vec3 dir, ShearedRay ray, READ(Primitive) trian
     float v = alongY(edges);
     float w = alongZ(edges);
     float det = (u + v) + w;
-    if (det == 0.0f) return false;
-
     t = planeDistance(org, dir, triangle);
-    if (t < 0.0f) return false;
+    if (!(absolute(det) > 0.0f) || t < 0.0f) return false;
     float inverseDet = quotient(1.0f, det);
     b1 = v * inverseDet;
     b2 = w * inverseDet;
