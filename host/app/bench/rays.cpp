@@ -33,16 +33,19 @@ vec3 offSurface(const vec3& point, const vec3& normal)
 
 namespace {
 
-/// Calls visit(x, y) for every pixel of a picture, in blocks of 8 x 8, as invocations of a device that renders pictures lie
-/// side by side.
+/// Calls visit(x, y) for every pixel of a picture, in blocks of 8 x 8, and in each of these in blocks of 4 x 2, as
+/// invocations of a device that renders pictures lie side by side (kernels/path.comp).
 template <class Visit>
 void forEachPixel(uint32_t size, Visit visit)
 {
     constexpr uint32_t BLOCK = 8;
     for (uint32_t top = 0; top < size; top += BLOCK) {
         for (uint32_t left = 0; left < size; left += BLOCK) {
-            for (uint32_t y = top; y < std::min(size, top + BLOCK); y++)
-                for (uint32_t x = left; x < std::min(size, left + BLOCK); x++) visit(x, y);
+            for (uint32_t i = 0; i < BLOCK * BLOCK; i++) {
+                const uint32_t inBlock = i % 8, block = i / 8;
+                const uint32_t x = left + block % 2 * 4 + inBlock % 4, y = top + block / 2 * 2 + inBlock / 4;
+                if (x < size && y < size) visit(x, y);
+            }
         }
     }
 }
