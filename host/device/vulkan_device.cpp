@@ -4,6 +4,7 @@
 #include "device/exact_math.h"
 #include "device/kernels.h"
 #include "device/scene_features.h"
+#include "device/scene_reads.h"
 #include "device/variants.h"
 #include "device/resumable.h"
 #include "device/vulkan_adaptive.h"
@@ -178,16 +179,14 @@ void VulkanDevice::setScene(const DeviceScene& scene)
     statistics_.texelBuffers = scene_->texel;
 }
 
-/// A pipeline of the kernel `kernel`_texel or `kernel`_storage, for the stack and buffers in force.
+/// A pipeline of the kernel `kernel`, in the form for the stack and buffers in force.
 ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t bindingCount,
                                            uint32_t pushConstantBytes, bool resumes)
 {
     PipelineRequest request;
-    request.name = kernel + (pipelineTexel_ ? "_texel" : "_storage");
-    request.bindings.assign(SCENE_BUFFER_COUNT, pipelineTexel_
-                                                    ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
-                                                    : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
-    request.bindings[BINDING_INSTANCES] = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    const SceneReads reads = sceneReads(context_->physical, pipelineTexel_);
+    request.name = kernel + suffixOf(reads);
+    for (uint32_t i = 0; i < SCENE_BUFFER_COUNT; i++) request.bindings.push_back(arrayType(reads, i));
     request.bindings.resize(bindingCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     request.bindings[BINDING_FRAME] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     request.pushConstantBytes = pushConstantBytes;

@@ -1,5 +1,6 @@
 #include "device/vulkan_scene.h"
 
+#include "device/scene_reads.h"
 #include "device/vulkan_limits.h"
 #include "device/walked_tree.h"
 #include "shared/bindings.h"
@@ -106,12 +107,9 @@ VulkanScene uploadScene(Context& context, const DeviceScene& given, const Buffer
     result.turnsPerSample = mostRaysPerSample(scene) + scene.frame.lightCount;
     requireMemory(context.physical, result.bytes);
 
-    for (uint32_t i = 0; i < SCENE_BUFFER_COUNT; i++) {
-        bool asTexels = result.texel || i == BINDING_INSTANCES;
-        VkBufferUsageFlags usage = asTexels ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT
-                                            : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-        result.arrays.push_back(uploadArray(context, sceneArrayName(i), usage, arrays[i]));
-    }
+    const SceneReads reads = sceneReads(context.physical, result.texel);
+    for (uint32_t i = 0; i < SCENE_BUFFER_COUNT; i++)
+        result.arrays.push_back(uploadArray(context, sceneArrayName(i), usageFor(arrayType(reads, i)), arrays[i]));
     result.frame = uploadArray(context, "frame", VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                                std::as_bytes(std::span(&frame, 1)));
     return result;

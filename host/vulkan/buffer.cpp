@@ -12,6 +12,8 @@ namespace {
 
 constexpr uint64_t EMPTY_BUFFER_BYTES = 16;  // one texel
 constexpr uint64_t TEXEL_BYTES = 16;         // RGBA32UI
+constexpr VkBufferUsageFlags TEXEL_USES =
+    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
 constexpr uint64_t STAGING_BYTES = uint64_t{64} << 20;
 
 // One core copies slower than memory allows, and a device waits meanwhile.
@@ -191,7 +193,7 @@ void requireBufferLimits(const PhysicalDevice& device, const BufferRequest& requ
         require(request.bytes, limits.maxStorageBufferRange, "maxStorageBufferRange, bytes");
     if (request.usage & VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)
         require(request.bytes, limits.maxUniformBufferRange, "maxUniformBufferRange, bytes");
-    if (request.usage & VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT)
+    if (request.usage & TEXEL_USES)
         require(request.bytes / TEXEL_BYTES, limits.maxTexelBufferElements,
                 "maxTexelBufferElements");
     require(request.bytes, device.maxAllocationBytes, "maxMemoryAllocationSize, bytes");
@@ -208,7 +210,7 @@ Buffer createBuffer(Context& context, const BufferRequest& request)
         requireHeapSpace(context, request, buffer.bytes, mainHeap(context.physical));
     createHandle(context, request, buffer);
     allocateMemory(context, request, buffer);
-    if (request.usage & VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT)
+    if (request.usage & TEXEL_USES)
         createTexelView(context, request, buffer);
     if (request.hostUse == HostUse::readBack && !buffer.mapped)
         buffer.staging =

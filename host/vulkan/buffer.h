@@ -57,7 +57,7 @@ struct Buffer {
     HeapShare share;
     Owned<VkDeviceMemory> memory;
     Owned<VkBuffer> handle;
-    Owned<VkBufferView> texels;       ///< of uniform texel buffers: RGBA32UI over the whole buffer
+    Owned<VkBufferView> texels;       ///< of texel buffers: RGBA32UI over the whole buffer
     std::byte* mapped = nullptr;      ///< the memory itself, where the host may use it well
     std::unique_ptr<Buffer> staging;  ///< of readBack buffers that are not mapped
 };

@@ -127,6 +127,7 @@ PhysicalDevice describe(VkPhysicalDevice handle, uint32_t index)
     vkGetPhysicalDeviceFormatProperties(handle, VK_FORMAT_R32G32B32A32_UINT, &format);
     device.rgba32uiTexelBuffers =
         (format.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT) != 0;
+    device.rgba32uiImageBuffers = (format.bufferFeatures & VK_FORMAT_FEATURE_STORAGE_TEXEL_BUFFER_BIT) != 0;
     if (!findQueueFamily(device)) device.unusable = "it has no queue for compute";
     return device;
 }

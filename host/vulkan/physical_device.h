@@ -23,6 +23,7 @@ struct PhysicalDevice {
     bool subgroupBallots = false;       ///< in compute shaders
     uint32_t queueFamily = 0;           ///< with compute; used for everything
     bool rgba32uiTexelBuffers = false;  ///< R32G32B32A32_UINT as uniform texel buffer
+    bool rgba32uiImageBuffers = false;  ///< the same as storage texel buffer
     bool portabilitySubset = false;     ///< the subset extension must be enabled
     std::string unusable;               ///< empty, or why nothing can be computed on it
 };

@@ -1,5 +1,7 @@
 // What a kernel provides to the path tracer's text: buffers behind accessors, and the frame.
-// SAHL_TEXEL_BUFFERS chooses uniform texel buffers; otherwise the scene is read from storage buffers.
+// SAHL_TEXEL_BUFFERS chooses uniform texel buffers; otherwise the scene is read from storage buffers. With
+// SAHL_TREE_IMAGES beside it nodes and primitives are read from storage texel buffers, as images: some drivers read texels
+// by calls of a function and images in place (host/device/driver_habits.h).
 
 #define CONST const
 #define OUT(T) out T
@@ -66,9 +68,18 @@ Probe backgroundProbe()
 #define FETCH(name, index) name[index]
 #endif
 
+#ifdef SAHL_TREE_IMAGES
+#define TREE_BUFFER(bindingIndex, name) \
+    layout(set = 0, binding = bindingIndex, rgba32ui) uniform readonly uimageBuffer name
+#define TREE_FETCH(name, index) imageLoad(name, int(index))
+#else
+#define TREE_BUFFER SCENE_BUFFER
+#define TREE_FETCH FETCH
+#endif
+
 // 16 bytes an element, whatever the struct.
-SCENE_BUFFER(BINDING_NODES, nodeWords);
-SCENE_BUFFER(BINDING_PRIMITIVES, primitiveWords);
+TREE_BUFFER(BINDING_NODES, nodeWords);
+TREE_BUFFER(BINDING_PRIMITIVES, primitiveWords);
 SCENE_BUFFER(BINDING_CORNERS, cornerWords);
 SCENE_BUFFER(BINDING_MATERIALS, materialWords);
 SCENE_BUFFER(BINDING_TABLES, tableWords);
@@ -76,29 +87,29 @@ SCENE_BUFFER(BINDING_PROBE, probeWords);
 layout(set = 0, binding = BINDING_INSTANCES) uniform utextureBuffer instanceWords;
 
 // Of the node that a reference or a number names.
-uvec4 loadWideX(uint ref) { return FETCH(nodeWords, (ref & WIDE_INDEX) * 4u); }
-uvec4 loadWideY(uint ref) { return FETCH(nodeWords, (ref & WIDE_INDEX) * 4u + 1u); }
-uvec4 loadWideZ(uint ref) { return FETCH(nodeWords, (ref & WIDE_INDEX) * 4u + 2u); }
-uvec4 loadWideRefs(uint ref) { return FETCH(nodeWords, (ref & WIDE_INDEX) * 4u + 3u); }
+uvec4 loadWideX(uint ref) { return TREE_FETCH(nodeWords, (ref & WIDE_INDEX) * 4u); }
+uvec4 loadWideY(uint ref) { return TREE_FETCH(nodeWords, (ref & WIDE_INDEX) * 4u + 1u); }
+uvec4 loadWideZ(uint ref) { return TREE_FETCH(nodeWords, (ref & WIDE_INDEX) * 4u + 2u); }
+uvec4 loadWideRefs(uint ref) { return TREE_FETCH(nodeWords, (ref & WIDE_INDEX) * 4u + 3u); }
 
 // Of use on processors that read ahead; see host/reference/kernel.h.
 void expectRef(uint ref) {}
 
 BvhNode loadNode(uint index)
 {
-    uvec4 a = FETCH(nodeWords, index * 4u);
-    uvec4 b = FETCH(nodeWords, index * 4u + 1u);
-    uvec4 c = FETCH(nodeWords, index * 4u + 2u);
-    uvec4 d = FETCH(nodeWords, index * 4u + 3u);
+    uvec4 a = TREE_FETCH(nodeWords, index * 4u);
+    uvec4 b = TREE_FETCH(nodeWords, index * 4u + 1u);
+    uvec4 c = TREE_FETCH(nodeWords, index * 4u + 2u);
+    uvec4 d = TREE_FETCH(nodeWords, index * 4u + 3u);
     return BvhNode(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w,
                    uintBitsToFloat(c.xyz), c.w, uintBitsToFloat(d.xyz), d.w);
 }
 
 Primitive loadPrimitive(uint index)
 {
-    uvec4 a = FETCH(primitiveWords, index * 3u);
-    uvec4 b = FETCH(primitiveWords, index * 3u + 1u);
-    uvec4 c = FETCH(primitiveWords, index * 3u + 2u);
+    uvec4 a = TREE_FETCH(primitiveWords, index * 3u);
+    uvec4 b = TREE_FETCH(primitiveWords, index * 3u + 1u);
+    uvec4 c = TREE_FETCH(primitiveWords, index * 3u + 2u);
     return Primitive(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w,
                      uintBitsToFloat(c.xyz), c.w);
 }

@@ -56,9 +56,12 @@ protected:
     void TearDown() override { ::unsetenv("XDG_CACHE_HOME"); }
 };
 
-const char* const KERNELS[] = {"trace_rays_texel",    "trace_rays_storage",   "path_texel",
-                               "path_storage",        "first_hits_texel",     "first_hits_storage",
-                               "adaptive_path_texel", "adaptive_path_storage"};
+const char* const KERNELS[] = {
+    "trace_rays_texel",    "trace_rays_image",    "trace_rays_storage",   //
+    "path_texel",          "path_image",          "path_storage",         //
+    "first_hits_texel",    "first_hits_image",    "first_hits_storage",   //
+    "adaptive_path_texel", "adaptive_path_image", "adaptive_path_storage",
+};
 
 TEST_F(FoldedKernels, holdNoFloatInstructionThatDiffersBetweenDevices)
 {
