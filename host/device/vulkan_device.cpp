@@ -189,6 +189,7 @@ ComputePipeline VulkanDevice::makePipeline(const std::string& kernel, uint32_t b
     for (uint32_t i = 0; i < SCENE_BUFFER_COUNT; i++) request.bindings.push_back(arrayType(reads, i));
     request.bindings.resize(bindingCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     request.bindings[BINDING_FRAME] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    if (kernel == TRACE_KERNEL) request.bindings[BINDING_RAYS] = raysType(reads);
     request.pushConstantBytes = pushConstantBytes;
     std::vector<uint32_t> constants(SPEC_COUNT);
     constants[SPEC_GROUP_WIDTH] = group_[0];
@@ -402,7 +403,7 @@ double VulkanDevice::traceRays(std::span<const TraceRay> rays, bool anyHit, std:
                          context_->physical.name, rays.size(), hits.size(), scene_ != nullptr);
     requireStorageBuffers(3, "rays of the host need");
     if (tracePipeline_.get().name.empty())
-        tracePipeline_ = makeResumable("trace_rays", BINDING_RAY_WALKS + 1, sizeof(TraceDispatch));
+        tracePipeline_ = makeResumable(TRACE_KERNEL, BINDING_RAY_WALKS + 1, sizeof(TraceDispatch));
     return traceRaysOnVulkan({*context_, tracePipeline_, *scene_, work_, statistics_, pipelineForm_.stackEntries,
                               group_[0] * group_[1]},
                              rays, anyHit, hits);

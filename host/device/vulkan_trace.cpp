@@ -20,7 +20,9 @@ uint64_t raysAtOnce(const TraceHost& host)
         std::min<uint64_t>(limits.maxStorageBufferRange, host.context.physical.maxAllocationBytes);
     uint64_t invocations = uint64_t{limits.maxComputeWorkGroupCount[0]} * host.groupSize;
     const uint64_t wanted = bufferShare(host.context.physical, sizeof(SuspendedWalk), 1u << 22);
-    return std::min({wanted, range / sizeof(SuspendedWalk), invocations});
+    constexpr uint32_t TEXELS_PER_RAY = sizeof(TraceRay) / 16;
+    const uint64_t texels = host.scene.texel ? limits.maxTexelBufferElements / TEXELS_PER_RAY : wanted;
+    return std::min({wanted, texels, range / sizeof(SuspendedWalk), invocations});
 }
 
 /// The buffers of the rays in flight.
@@ -28,10 +30,10 @@ struct TraceBuffers {
     Buffer rays, hits, walks;
 };
 
-TraceBuffers makeBuffers(Context& context, uint64_t count)
+TraceBuffers makeBuffers(Context& context, uint64_t count, SceneReads reads)
 {
-    VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    return {createBuffer(context, {"rays", count * sizeof(TraceRay), usage, HostUse::upload}),
+    const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    return {createBuffer(context, {"rays", count * sizeof(TraceRay), usageFor(raysType(reads)), HostUse::upload}),
             createBuffer(context, {"hits", count * sizeof(TraceHit), usage, HostUse::readBack}),
             createBuffer(context, {"walks", count * sizeof(SuspendedWalk), usage, HostUse::none})};
 }
@@ -102,7 +104,7 @@ double traceRaysOnVulkan(const TraceHost& host, std::span<const TraceRay> rays, 
 {
     double seconds = 0;
     const uint64_t atOnce = std::min<uint64_t>(raysAtOnce(host), rays.size());
-    TraceBuffers buffers = makeBuffers(host.context, atOnce);
+    TraceBuffers buffers = makeBuffers(host.context, atOnce, sceneReads(host.context.physical, host.scene.texel));
     bindAll(host, buffers);
     for (size_t first = 0; first < rays.size(); first += atOnce) {
         const size_t count = std::min(rays.size() - first, atOnce);

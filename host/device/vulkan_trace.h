@@ -3,9 +3,15 @@
 
 #include "device/bounded_work.h"
 #include "device/resumable.h"
+#include "device/scene_reads.h"
 #include "device/vulkan_scene.h"
 
 namespace sahl {
+
+constexpr const char* TRACE_KERNEL = "trace_rays";
+
+/// Rays are read as most arrays of the scene are.
+inline VkDescriptorType raysType(SceneReads reads) { return arrayType(reads, BINDING_MATERIALS); }
 
 /// What tracing needs of the device that it runs on.
 struct TraceHost {

@@ -8,10 +8,7 @@
 
 layout(local_size_x_id = SPEC_GROUP_WIDTH, local_size_y_id = SPEC_GROUP_HEIGHT) in;
 
-layout(std430, set = 0, binding = BINDING_RAYS) readonly buffer RaysBlock
-{
-    TraceRay rays[];
-};
+SCENE_BUFFER(BINDING_RAYS, rayWords);
 layout(std430, set = 0, binding = BINDING_RAY_HITS) buffer HitsBlock
 {
     TraceHit hits[];
@@ -49,6 +46,13 @@ Traversal resumedWalk(uint index)
     return walk;
 }
 
+TraceRay loadRay(uint index)
+{
+    uvec4 a = FETCH(rayWords, index * 2u);
+    uvec4 b = FETCH(rayWords, index * 2u + 1u);
+    return TraceRay(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), b.w);
+}
+
 void main()
 {
     uint index = gl_WorkGroupID.x * (gl_WorkGroupSize.x * gl_WorkGroupSize.y) + gl_LocalInvocationIndex;
@@ -59,7 +63,7 @@ void main()
     stepsLeft = job.stepBudget;
     faults = 0u;
     tally = Tally(0u, 0u, 0u, 0u, 0u, 0u);
-    TraceRay ray = rays[index];
+    TraceRay ray = loadRay(index);
     Traversal walk;
     if (RESUMES && status == TRACE_SUSPENDED) {
         walk = resumedWalk(index);

@@ -22,7 +22,8 @@ SHARED_CONST uint BINDING_SUSPENDED = 9u;   // storage buffer, SuspendedPath[] o
 SHARED_CONST uint BINDING_COUNT = 10u;      // of the path kernels
 SHARED_CONST uint BINDING_FIRST_HITS = 10u; // storage buffer, FirstHits[] of the tile: first_hits only
 
-// In place of these, of trace_rays: storage buffers, TraceRay[], TraceHit[] and SuspendedWalk[].
+// In place of these, of trace_rays: TraceRay[], read as arrays of the scene are; storage buffers, TraceHit[] and
+// SuspendedWalk[].
 SHARED_CONST uint BINDING_RAYS = 8u;
 SHARED_CONST uint BINDING_RAY_HITS = 9u;
 SHARED_CONST uint BINDING_RAY_WALKS = 10u;
