@@ -3,6 +3,8 @@
 #include "cli/sahl_program.h"
 #include "support/source_folder.h"
 
+#include <algorithm>
+
 namespace sahl::testing {
 namespace {
 
@@ -126,8 +128,14 @@ TEST_F(BenchOf, build_countsTheTestsOfEveryTree)
 TEST_F(BenchOf, start_runsTheProgramItself)
 {
     const nlohmann::json row = measured("start")["rows"].at(0);
-    EXPECT_EQ(row["coldSeconds"].size(), 2u);
-    EXPECT_GT(row["warmSeconds"][0], row["loadSeconds"]);
+    std::vector<double> starts = row["coldSeconds"].get<std::vector<double>>();
+    const std::vector<double> warm = row["warmSeconds"].get<std::vector<double>>();
+    EXPECT_EQ(starts.size(), 2u);
+    EXPECT_EQ(warm.size(), 2u);
+    starts.insert(starts.end(), warm.begin(), warm.end());
+    // A run takes longer than its reading and building; the median of these is reached in one of the runs at least
+    EXPECT_GT(*std::max_element(starts.begin(), starts.end()), row["loadSeconds"]);
+    EXPECT_GT(row["loadSeconds"], 0);
 }
 
 TEST_F(BenchOf, scale_drawsAPlot)
