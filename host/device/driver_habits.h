@@ -26,7 +26,7 @@ inline bool compilesForUniforms(const std::string& driver)
 
 /// Whether the driver reads a texel of a buffer by a call of a function, for which its caller saves what it holds in
 /// registers, as Mesa's lavapipe does: there nodes and primitives are images (kernels/device.glsl). 22.3 reads these in
-/// place, 25.0 by shorter functions: pictures take 6 to 7 % fewer instructions on both.
+/// place, 25.0 by functions as well: with images rays take 6 % fewer instructions on both.
 inline bool callsForTexels(const std::string& driver) { return driver.starts_with("llvmpipe Mesa "); }
 
 /// Whether the driver may end a loop before its own condition does, as Mesa's llvmpipe does after 65,535 turns. Those of
